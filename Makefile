@@ -1,0 +1,51 @@
+# `make demo` runs a first crack, `make test` runs the checks. Both need only make and Python >= 3.11.
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+READY := $(VENV)/.ready
+JOBS ?= 2
+export PIP_DISABLE_PIP_VERSION_CHECK := 1
+
+.PHONY: help demo test verify lint format docs clean
+.DEFAULT_GOAL := help
+
+help:  ## what can be made
+	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*##/\t/'
+
+# Made once; again when the packages it needs change.
+$(READY): pyproject.toml
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
+	  { echo "cramp needs Python 3.11 or newer: make PYTHON=python3.12 ..." >&2; exit 1; }
+	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --editable ".[dev]"
+	@touch $@
+
+demo: $(READY)  ## run a double cantilever beam and compare its J and K_I with a reference
+	$(BIN)/cramp run inputs/dcb.yaml -o dcb.run --overwrite
+	@echo
+	@echo "Last samples of the crack tip (dcb.run/cracks.csv), SI units:"
+	@$(BIN)/cramp info dcb.run --tips
+	@echo "Reference, NairnMPM at 1.5 ms: J = 336.0 J/m^2, K_I = 5.797e+05 Pa*m^0.5"
+	@echo "Open dcb.run/particles.xdmf in ParaView (crack: dcb.run/cracks.xdmf)."
+
+test: lint  ## lint and the fast tests (layer rule included)
+	$(BIN)/python -m pytest -n $(JOBS) -q -m "not slow"
+
+verify: $(READY)  ## the long tests against theory and papers
+	$(BIN)/python -m pytest -n $(JOBS) -q -m "slow or verification"
+
+lint: $(READY)
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+
+format: $(READY)  ## put the sources into shape
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+docs: $(READY)  ## write the JSON schema of a deck for editors
+	$(BIN)/cramp schema > docs/deck.schema.json
+
+clean:  ## remove what these targets made
+	rm -rf $(VENV) dcb.run build dist .pytest_cache .ruff_cache .hypothesis
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -1,0 +1,1 @@
+"""Prescribed velocities, symmetry planes, loads."""

@@ -1,0 +1,200 @@
+"""Boundary conditions and loads of a model, applied in the order of the deck."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from cramp_cli.boundary.symmetry import (
+    Mirror,
+    find_open_nodes,
+    reflect,
+    reflect_mass,
+    stop_normal,
+    sum_outside,
+)
+from cramp_cli.boundary.traction import Faces, add_traction, traction_power
+from cramp_cli.boundary.velocity import (
+    Held,
+    find_held_rows,
+    hold_again,
+    hold_force,
+    hold_momentum,
+    hold_zero,
+)
+from cramp_cli.transfer.on_grid import add_gravity
+from cramp_cli.transfer.to_grid import sum_particle_force
+
+
+@dataclass(frozen=True)
+class Hold:
+    """A prescribed velocity component: value times curve."""
+
+    held: Held
+    value: float  # m/s
+    curve: Any  # .value(t)
+    boundary: int  # number of the boundary that books the reaction
+
+
+@dataclass(frozen=True)
+class MirrorPlane:
+    """A symmetry plane and the boundary that books its reaction."""
+
+    mirror: Mirror
+    boundary: int
+
+
+@dataclass(frozen=True)
+class ParticleForce:
+    """Forces on particles of one block: load times curve."""
+
+    particles: np.ndarray  # (n,)
+    load: np.ndarray  # (n, dim) N
+    shape: Any
+    curve: Any
+
+
+@dataclass(frozen=True)
+class Traction:
+    """Tractions on particle faces of one block: load times curve."""
+
+    faces: Faces
+    shape: Any
+    curve: Any
+
+
+@dataclass(frozen=True)
+class Gravity:
+    """A body force per mass: acceleration times curve."""
+
+    acceleration: tuple  # m/s^2
+    curve: Any
+
+
+@dataclass(frozen=True)
+class Conditions:
+    """All boundary conditions and loads."""
+
+    names: tuple  # of boundaries, for reactions
+    holds: tuple = ()
+    mirrors: tuple = ()
+    forces: tuple = ()
+    tractions: tuple = ()
+    gravity: tuple = ()
+
+    def body_force(self, time: float, dim: int) -> tuple:
+        """Return the sum of all gravities (m/s^2)."""
+        total = np.zeros(dim)
+        for g in self.gravity:
+            total += g.curve.value(time) * np.array(g.acceleration)
+        return tuple(total.tolist())
+
+
+def meet_rows(conditions, scratch, width) -> None:
+    """Find which rows every condition acts on in this step."""
+    if len(scratch.held) != len(conditions.holds):
+        scratch.held = [[np.zeros(3 * len(h.held.node) + 8, dtype=np.int64), 0] for h in conditions.holds]
+        scratch.free = [np.zeros(len(p.mirror.on), dtype=np.bool_) for p in conditions.mirrors]
+    for hold, entry in zip(conditions.holds, scratch.held, strict=True):
+        held = hold.held
+        entry[1] = find_held_rows(
+            entry[0], scratch.rows, scratch.grid.mass, held.node, held.inside, held.lower, held.upper
+        )
+    for plane, free in zip(conditions.mirrors, scratch.free, strict=True):
+        m, segments = plane.mirror, scratch.segments
+        if m.crack >= 0:
+            count = segments.used[0]
+            find_open_nodes(
+                free, m.axis, m.crack, m.place, segments.ends, segments.crack, count, width
+            )
+
+
+def reflect_mass_and_momentum(conditions, scratch) -> None:
+    """Give the sums on both sides of every symmetry plane to each other."""
+    grid, rows = scratch.grid, scratch.rows
+    for plane, free in zip(conditions.mirrors, scratch.free, strict=True):
+        m = plane.mirror
+        reflect_mass(grid.mass, rows, m.crack, m.outside, m.inside)
+        _reflect(m, free, rows, grid.momentum, add=True)
+
+
+def reflect_sum(conditions, scratch, field) -> None:
+    """Give a sum of vectors on both sides of every symmetry plane to each other."""
+    for plane, free in zip(conditions.mirrors, scratch.free, strict=True):
+        _reflect(plane.mirror, free, scratch.rows, field, add=True)
+
+
+def repeat_images(conditions, scratch, *fields) -> None:
+    """Make the rows outside every symmetry plane images of those inside again."""
+    for plane, free in zip(conditions.mirrors, scratch.free, strict=True):
+        for field in fields:
+            _reflect(plane.mirror, free, scratch.rows, field, add=False)
+
+
+def reflect_forces(conditions, scratch, state) -> None:
+    """Reflect the forces and book the reaction of every symmetry plane.
+
+    What the nodes outside carry pulls on the body and, reflected, on its image: it counts twice.
+    """
+    force = scratch.grid.force
+    for plane, free in zip(conditions.mirrors, scratch.free, strict=True):
+        m = plane.mirror
+        outside = sum_outside(force, m.axis, m.outside)
+        taken = _reflect(m, free, scratch.rows, force, add=True)
+        state.reactions[plane.boundary, m.axis] -= taken + 2.0 * outside
+
+
+def _reflect(m: Mirror, free, rows, field, *, add: bool) -> float:
+    reflect(field, rows, m.axis, m.crack, m.outside, m.inside, add)
+    return stop_normal(field, rows, m.axis, m.crack, m.on, free)
+
+
+def hold_momenta(conditions, scratch, time) -> None:
+    """Impose the prescribed velocities on the momenta."""
+    for hold, (rows, count) in zip(conditions.holds, scratch.held, strict=True):
+        grid = scratch.grid
+        speed = hold.value * hold.curve.value(time)
+        hold_momentum(grid.momentum, grid.mass, rows, count, hold.held.axis, speed)
+
+
+def hold_forces(conditions, scratch, state, time, dt) -> None:
+    """Impose the prescribed velocities on the forces; book reactions and work."""
+    for hold, (rows, count) in zip(conditions.holds, scratch.held, strict=True):
+        speed = hold.value * hold.curve.value(time)
+        reaction, work = hold_force(scratch.grid, rows, count, hold.held.axis, speed, dt)
+        state.reactions[hold.boundary, hold.held.axis] += reaction
+        state.books.external[0] += work
+
+
+def hold_after_contact(conditions, scratch, state, time, dt) -> None:
+    """Impose the prescribed velocities once more, on momenta and forces that contact has changed."""
+    for hold, (rows, count) in zip(conditions.holds, scratch.held, strict=True):
+        speed = hold.value * hold.curve.value(time)
+        reaction = hold_again(scratch.grid, rows, count, hold.held.axis, speed, dt)
+        state.reactions[hold.boundary, hold.held.axis] += reaction
+        state.books.external[0] += reaction * speed * dt
+
+
+def book_tractions(model, scratch, state, time, dt) -> None:
+    """Book the work of tractions, with the velocities of the grid in the middle of the step."""
+    for t in model.conditions.tractions:
+        power = traction_power(scratch.grid, scratch.stencil, t.faces, t.shape, model.strides, dt)
+        state.books.external[0] += t.curve.value(time) * power * dt
+
+
+def hold_increment(conditions, scratch, field) -> None:
+    """Keep held components out of higher orders of the grid velocity."""
+    for hold, (rows, count) in zip(conditions.holds, scratch.held, strict=True):
+        hold_zero(field, rows, count, hold.held.axis)
+
+
+def add_loads(model, scratch, time) -> None:
+    """Add all loads to the forces of the grid."""
+    conditions, strides, grid = model.conditions, model.strides, scratch.grid
+    for f in conditions.forces:
+        factor = f.curve.value(time)
+        sum_particle_force(grid, f.particles, f.load, scratch.stencil, f.shape, strides, factor)
+    for t in conditions.tractions:
+        add_traction(grid, scratch.stencil, t.faces, t.shape, strides, t.curve.value(time))
+    if conditions.gravity:
+        add_gravity(grid, scratch.row_count, conditions.body_force(time, len(strides)))

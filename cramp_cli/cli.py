@@ -1,0 +1,258 @@
+"""The commands of cramp: each reads its words, calls one function and prints the answer.
+
+Results go to stdout, everything meant for a person to stderr. What a command needs is imported
+inside it, so that `cramp --help` answers at once.
+"""
+
+import json
+import os
+import sys
+from dataclasses import dataclass
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from cramp_cli import __version__
+
+app = typer.Typer(
+    add_completion=False,
+    no_args_is_help=True,
+    rich_markup_mode=None,
+    help="Fracture simulation with explicit cracks in the material point method.",
+)
+
+
+class Progress(StrEnum):
+    """How a run shows how far it is."""
+
+    auto = "auto"
+    bar = "bar"
+    lines = "lines"
+    none = "none"
+
+
+class Form(StrEnum):
+    """Files that `export` writes."""
+
+    vtu = "vtu"
+    csv = "csv"
+
+
+@dataclass
+class Settings:
+    """What holds for all commands."""
+
+    verbosity: int = 1  # 0 quiet, 1 normal, 2 everything
+
+
+Deck = Annotated[Path, typer.Argument(help="The deck, a YAML file.", metavar="DECK")]
+Run = Annotated[Path, typer.Argument(help="The folder of a run.", metavar="RUNDIR")]
+Json = Annotated[bool, typer.Option("--json", help="Answer in JSON.")]
+Sets = Annotated[
+    list[str] | None,
+    typer.Option(
+        "-s",
+        "--set",
+        metavar="PATH.TO.KEY=VALUE",
+        help="Change one value of the deck; may be given often. Checked like the deck.",
+    ),
+]
+Strict = Annotated[bool, typer.Option("--strict", help="Take every warning as a mistake.")]
+
+
+def _show_version(asked: bool) -> None:
+    if asked:
+        print(f"cramp {__version__}")
+        raise typer.Exit
+
+
+def _size(text: str) -> int:
+    from cramp_cli.output.machine import parse_bytes
+
+    try:
+        return parse_bytes(text)
+    except ValueError as error:
+        raise typer.BadParameter(str(error)) from None
+
+
+@app.callback()
+def cramp(
+    context: typer.Context,
+    version: Annotated[
+        bool,
+        typer.Option("--version", callback=_show_version, is_eager=True, help="Print the version."),
+    ] = False,
+    verbose: Annotated[
+        bool, typer.Option("-v", "--verbose", help="Say more, with tracebacks.")
+    ] = False,
+    quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Say only what is wrong.")] = False,
+    no_color: Annotated[bool, typer.Option("--no-color", help="No colours.")] = False,
+):
+    context.ensure_object(Settings).verbosity = 0 if quiet else 2 if verbose else 1
+    if no_color:
+        os.environ["NO_COLOR"] = "1"
+
+
+@app.command()
+def run(
+    context: typer.Context,
+    deck: Deck,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", help="Folder of the results [<deck>.run].")
+    ] = None,
+    sets: Sets = None,
+    threads: Annotated[
+        int | None, typer.Option("-t", "--threads", min=1, help="Number of threads.")
+    ] = None,
+    overwrite: Annotated[
+        bool, typer.Option("--overwrite", help="Replace an earlier run in that folder.")
+    ] = False,
+    end_time: Annotated[
+        str | None,
+        typer.Option("--end-time", metavar="TIME", help="Stop at this time, like '0.2 ms'."),
+    ] = None,
+    dry_run: Annotated[
+        bool, typer.Option("--dry-run", help="Check and estimate only; write nothing.")
+    ] = False,
+    strict: Strict = False,
+    progress: Annotated[Progress, typer.Option(help="How to show progress.")] = Progress.auto,
+    max_memory: Annotated[
+        int | None,
+        typer.Option(parser=_size, metavar="SIZE", help="Refuse to use more, like '8 GB'."),
+    ] = None,
+    max_disk: Annotated[
+        int | None,
+        typer.Option(parser=_size, metavar="SIZE", help="Refuse to write more, like '20 GB'."),
+    ] = None,
+    profile: Annotated[
+        bool, typer.Option("--profile", help="Say at the end where the time went.")
+    ] = False,
+):
+    """Simulate a deck; show J and K of every tip.
+
+    The deck is checked and its need of memory and disk estimated before anything is allocated.
+    Prints the folder of the results on stdout; progress goes to stderr.
+    """
+    from cramp_cli.commands import RunOptions, run_deck
+
+    options = RunOptions(
+        output,
+        (sets or []) + ([f"solver.end_time={end_time}"] if end_time else []),
+        threads,
+        overwrite,
+        dry_run,
+        strict,
+        progress.value,
+        max_memory,
+        max_disk,
+        profile,
+        context.obj.verbosity,
+    )
+    folder = run_deck(deck, options)
+    if folder:
+        print(folder)
+
+
+@app.command()
+def check(
+    decks: Annotated[list[Path], typer.Argument(help="Decks to look at.", metavar="DECK...")],
+    sets: Sets = None,
+    as_json: Json = False,
+    report: Annotated[
+        bool,
+        typer.Option(
+            "--report", help="Wave speeds, time step, steps, particles, memory, disk, K from J."
+        ),
+    ] = False,
+    strict: Strict = False,
+):
+    """Name every mistake of a deck; run nothing."""
+    from cramp_cli.commands import check_deck, say_check
+    from cramp_cli.output.atomic import plain
+    from cramp_cli.output.exits import DECK
+
+    answers = [check_deck(deck, sets or [], strict, report) for deck in decks]
+    if as_json:
+        print(json.dumps(plain(answers), indent=2))
+    else:
+        for answer in answers:
+            say_check(answer)
+    if not all(answer["valid"] for answer in answers):
+        raise typer.Exit(DECK)
+
+
+@app.command()
+def show(deck: Deck, sets: Sets = None):
+    """Print a deck with all defaults, in SI units."""
+    from cramp_cli.commands import load_deck
+    from cramp_cli.deck.deck import to_yaml
+
+    print(to_yaml(load_deck(deck, sets or []).resolved()), end="")
+
+
+@app.command()
+def schema():
+    """Print the JSON Schema of a deck, for editors."""
+    from cramp_cli.deck.deck import Deck
+
+    print(json.dumps(Deck.model_json_schema(), indent=2))
+
+
+@app.command()
+def info(
+    path: Run,
+    as_json: Json = False,
+    tips: Annotated[bool, typer.Option("--tips", help="Only the last J and K of tips.")] = False,
+):
+    """Tell how a run went, with its last J and K."""
+    from cramp_cli.output.look import describe, facts
+    from cramp_cli.output.summary import tips_text
+    from cramp_cli.output.tables import facts_text
+
+    found = describe(path)
+    if as_json:
+        print(json.dumps(found["tips"] if tips else found, indent=2))
+        return
+    if not tips:
+        print(facts_text(str(path), facts(found)))
+    if found["tips"]:
+        print(tips_text(found["tips"]))
+
+
+@app.command()
+def export(
+    path: Run,
+    form: Annotated[Form, typer.Option("--format", help="Kind of files.")] = Form.vtu,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", help="Folder for them [RUNDIR/export].")
+    ] = None,
+):
+    """Write all frames as VTU or CSV.
+
+    Prints the files to open: .pvd for ParaView, a table of times and files for CSV.
+    """
+    from cramp_cli.output.export import export as write_all
+
+    for written in write_all(path, output or path / "export", form.value):
+        print(written)
+
+
+@app.command()
+def doctor(
+    warmup: Annotated[bool, typer.Option("--warmup", help="Compile all kernels now.")] = False,
+):
+    """Look at this installation and computer."""
+    from cramp_cli.commands import warm_up
+    from cramp_cli.output.doctor import examine
+    from cramp_cli.output.exits import FILES
+    from cramp_cli.output.tables import facts_text
+
+    compiled = {"compiled in": warm_up()} if warmup else {}
+    facts, faults = examine()
+    print(facts_text("cramp doctor", facts | compiled))
+    for fault in faults:
+        print(f"problem: {fault}", file=sys.stderr)
+    if faults:
+        raise typer.Exit(FILES)

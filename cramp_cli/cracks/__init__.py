@@ -1,0 +1,1 @@
+"""Explicit cracks: crossing test, velocity fields, contact, motion, J and K."""

@@ -1,0 +1,183 @@
+"""Contact between the two sides of a crack, row against row (Nairn 2003, Bardenhagen et al. 2001)."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from cramp_cli.cracks.rows import find_row
+from cramp_cli.numerics.dispatch import by_length
+from cramp_cli.numerics.kernel import kernel
+from cramp_cli.numerics.tensor import dot, plus, times, vector
+from cramp_cli.shapes.shape import offsets, weights
+
+IGNORE, FRICTIONAL, STICK, GLUED = 0, 1, 2, 3
+LAWS = {"ignore": IGNORE, "frictional": FRICTIONAL, "stick": STICK, "glued": GLUED}
+
+OPEN, SLIDING, STUCK = 0, 1, 2  # what a pair of rows does
+
+FIRST, UPDATE, LAST = 0, 1, 2  # passes A, B, C: after the first sums, the update, the second sums
+
+
+class ContactLaws(NamedTuple):
+    """Law of every crack."""
+
+    kind: np.ndarray  # (cracks,) IGNORE, FRICTIONAL, STICK or GLUED
+    mu: np.ndarray  # (cracks,) coefficient of sliding friction
+    mu_static: np.ndarray  # (cracks,) coefficient of static friction, not below mu
+
+
+@kernel
+def sum_displacement(rows, particles, stencil, shape, strides, lo, hi):
+    """Add mass-weighted displacement and position of particles lo..hi to rows of shared nodes."""
+    first, displacement, place = rows.first, rows.displacement, rows.place
+    x, X, m = particles.position, particles.origin, particles.mass
+    base, local, near, table = stencil.base, stencil.local, stencil.near, stencil.table
+    steps = offsets(strides, shape)
+    for i in range(stencil.count[1]):
+        p = stencil.around[i]
+        if p < lo or p >= hi:
+            continue
+        S = weights(vector(strides, local, p), shape)
+        line = near[p]
+        for k in range(len(steps)):
+            if first[base[p] + steps[k]] >= 0:
+                row = base[p] + steps[k] if line < 0 else table[line, k]
+                for d in range(len(strides)):
+                    displacement[row, d] += S[k] * m[p] * (x[p, d] - X[p, d])
+                    place[row, d] += S[k] * m[p] * x[p, d]
+
+
+@by_length
+def unit_normal(like, normal, e, slot):
+    """Return the normal of an extra row across the crack in `slot`, from above to below."""
+
+
+@unit_normal.implement(2)
+def _(like, normal, e, slot):
+    size = np.hypot(normal[e, slot, 0], normal[e, slot, 1])
+    over = 1.0 / size if size > 0.0 else 0.0
+    return (normal[e, slot, 0] * over, normal[e, slot, 1] * over)
+
+
+@kernel
+def impulse(kind, mu, mu_static, dp, n, dpn, gap):
+    """Return the momentum that side a receives from side b, and whether the sides slide or stick.
+
+    dp: momentum that would bring both to their common velocity; n: unit normal from a to b; dpn: dp.n;
+    gap: opening (m), negative where the sides overlap
+    """
+    if kind == GLUED:
+        return dp, STUCK
+    if gap >= 0.0 or dpn >= 0.0:
+        return times(dp, 0.0), OPEN
+    if kind == STICK:
+        return dp, STUCK
+    tangential = plus(dp, -dpn, n)
+    size = np.sqrt(dot(tangential, tangential))
+    if size <= -mu_static * dpn:
+        return dp, STUCK
+    return plus(times(n, dpn), -mu * dpn / size, tangential), SLIDING
+
+
+@kernel
+def touch_pair(grid, a, b, normal, gap, kind, mu, mu_static, strides, dt, stage):
+    """Let rows a (above) and b (below) touch; return what they do and the work of friction (J)."""
+    mass, momentum, saved, force = grid.mass, grid.momentum, grid.saved, grid.force
+    ma, mb = mass[a], mass[b]
+    share_a, share_b = ma / (ma + mb), mb / (ma + mb)
+    reduced = ma * share_b
+    pa, pb = vector(strides, momentum, a), vector(strides, momentum, b)
+    dp = plus(times(pb, share_a), -share_b, pa)
+    dpn = dot(dp, normal)
+    if stage == UPDATE:
+        fa, fb = vector(strides, force, a), vector(strides, force, b)
+        dfn = dot(plus(times(fb, share_a), -share_b, fa), normal)
+        gap += (dpn - 0.5 * dfn * dt) * dt / reduced
+    given, state = impulse(kind, mu, mu_static, dp, normal, dpn, gap)
+    for d in range(len(strides)):
+        momentum[a, d] += given[d]
+        momentum[b, d] -= given[d]
+        if stage == FIRST:
+            saved[a, d], saved[b, d] = momentum[a, d], momentum[b, d]
+        elif stage == UPDATE:
+            force[a, d] += given[d] / dt
+            force[b, d] -= given[d] / dt
+    if state != SLIDING:
+        return state, 0.0
+    tangential_given = plus(given, -dot(given, normal), normal)
+    slip = plus(plus(dp, -dpn, normal), -0.5, tangential_given)
+    return state, dot(tangential_given, slip) / reduced
+
+
+@kernel
+def touch(grid, rows, laws, strides, dt, stage):
+    """Contact between all rows of a node that differ by one crack; returns the work of friction (J).
+
+    Pairs 0-1, 0-2 come before 1-3, 2-3 (rows of a node ascend by their cracks).
+    """
+    nodes = len(rows.first)
+    friction = 0.0
+    for i in range(rows.count[1]):
+        node = rows.shared[i]
+        for crossings in (1, 2):
+            row = rows.first[node]
+            while row >= 0:
+                e = row - nodes
+                if (rows.crack[e, 1] >= 0) == (crossings == 2):
+                    for slot in range(crossings):
+                        friction += touch_across(grid, rows, laws, strides, dt, stage, row, slot)
+                row = rows.next[e]
+    return friction
+
+
+@kernel
+def touch_across(grid, rows, laws, strides, dt, stage, row, slot):
+    """Contact of a row with the row on the other side of the crack in `slot`."""
+    e = row - len(rows.first)
+    crack = rows.crack[e, slot]
+    kind = laws.kind[crack]
+    if kind == IGNORE:
+        return 0.0
+    partner = find_row(rows, rows.node[e], rows.crack[e, 1 - slot], -1)
+    if partner < 0 or grid.mass[row] <= 0.0 or grid.mass[partner] <= 0.0:
+        return 0.0
+    a, b = (row, partner) if rows.side[e, slot] > 0 else (partner, row)
+    n = unit_normal(strides, rows.normal, e, slot)
+    apart = plus(
+        times(vector(strides, rows.displacement, b), 1.0 / grid.mass[b]),
+        -1.0 / grid.mass[a],
+        vector(strides, rows.displacement, a),
+    )
+    state, friction = touch_pair(
+        grid, a, b, n, dot(apart, n), kind, laws.mu[crack], laws.mu_static[crack], strides, dt, stage
+    )
+    rows.touching[e, slot] = state
+    return friction if stage == UPDATE else 0.0
+
+
+@kernel
+def touch_increment(increment, grid, rows, laws, strides):
+    """Keep higher orders of the grid velocity (XPIC, FMPM) from undoing the contact of the update.
+
+    Sides that touched in the update share the normal component of the increment, sides that stuck
+    share all of it.
+
+    increment: (rows, dim), m/s
+    """
+    nodes, mass = len(rows.first), grid.mass
+    for e in range(rows.count[0]):
+        for slot in range(2):
+            crack = rows.crack[e, slot]
+            state = rows.touching[e, slot]
+            if crack < 0 or state == 0:
+                continue
+            partner = find_row(rows, rows.node[e], rows.crack[e, 1 - slot], -1)
+            row = nodes + e
+            n = unit_normal(strides, rows.normal, e, slot)
+            apart = plus(vector(strides, increment, partner), -1.0, vector(strides, increment, row))
+            if state == SLIDING:
+                apart = times(n, dot(apart, n))
+            share = mass[partner] / (mass[row] + mass[partner])
+            for d in range(len(strides)):
+                increment[row, d] += share * apart[d]
+                increment[partner, d] -= (1.0 - share) * apart[d]

@@ -1,0 +1,265 @@
+"""J on a rectangle of grid lines around a tip, as in the paper (Guo and Nairn 2004; Nairn 2003).
+
+Nodal averages per velocity field, trapezoid rule along the contour, both sides of the crack where it
+crosses, kinetic energy in the line term and, with two terms, the area integral of the inertia.
+"""
+
+from math import hypot
+from typing import NamedTuple
+
+import numpy as np
+
+from cramp_cli.cracks.crossing import ON_CRACK, crosses
+from cramp_cli.cracks.rows import find_row
+from cramp_cli.numerics.kernel import kernel
+from cramp_cli.numerics.tensor import matrix, product, rotation_of, vector, zero_matrix
+from cramp_cli.shapes.shape import offsets, weights
+
+FULL = 0.75  # a contour node with less of a full cell's mass lies at or beyond the edge of the body
+
+
+class Box(NamedTuple):
+    """Rectangle of nodes: corner and number of nodes along each axis."""
+
+    i: int
+    j: int
+    wide: int
+    high: int
+
+
+class Contour(NamedTuple):
+    """What a contour integral says: Jx, Jy (J/m^2) and why it can not be trusted, or an empty text."""
+
+    Jx: float
+    Jy: float
+    trouble: str
+
+
+@kernel
+def sum_fields(sums, particles, stencil, shape, strides, box, nodes, lo, hi):
+    """Add mass-weighted fields of particles lo..hi to the rows of the nodes in a box.
+
+    sums: (box nodes + extra rows, 10): mass, du_x/dx, du_x/dy, du_y/dx, du_y/dy, stress xx, yy, xy,
+    energy density, kinetic energy density. The gradient is R F R^T - 1: it must hold the rotation.
+    """
+    stress, volume, mass = particles.stress, particles.volume, particles.mass
+    base, local, near, table = stencil.base, stencil.local, stencil.near, stencil.table
+    steps = offsets(strides, shape)
+    like = zero_matrix(strides)
+    inside = box.wide * box.high
+    for p in range(lo, hi):
+        i, j = base[p] % strides[1] - box.i, base[p] // strides[1] - box.j
+        if i < -3 or j < -3 or i >= box.wide or j >= box.high:
+            continue
+        S = weights(vector(strides, local, p), shape)
+        F = matrix(like, particles.F, p)
+        R = rotation_of(F)
+        H = product(product(R, F), (R[0], R[2], R[1], R[3]))
+        v = vector(strides, particles.velocity, p)
+        kinetic = 0.5 * mass[p] / volume[p] * (v[0] * v[0] + v[1] * v[1])
+        line = near[p]
+        for k in range(len(steps)):
+            node = base[p] + steps[k]
+            i, j = node % strides[1] - box.i, node // strides[1] - box.j
+            if i < 0 or j < 0 or i >= box.wide or j >= box.high:
+                continue
+            row = node if line < 0 else table[line, k]
+            to = i + j * box.wide if row < nodes else inside + row - nodes
+            w = S[k] * mass[p]
+            sums[to, 0] += w
+            sums[to, 1] += w * (H[0] - 1.0)
+            sums[to, 2] += w * H[1]
+            sums[to, 3] += w * H[2]
+            sums[to, 4] += w * (H[3] - 1.0)
+            sums[to, 5] += w * stress[p, 0]
+            sums[to, 6] += w * stress[p, 1]
+            sums[to, 7] += w * stress[p, 3]
+            sums[to, 8] += w * particles.work[p]
+            sums[to, 9] += w * kinetic
+
+
+@kernel
+def area_term(particles, gravity, lower, upper, lo, hi):
+    """Return sums over the particles in a rectangle: inertia along x and y (N), and volume (m^3)."""
+    x, v, a, m = particles.position, particles.velocity, particles.acceleration, particles.mass
+    F, L, volume = particles.F, particles.L, particles.volume
+    Ax, Ay, inside = 0.0, 0.0, 0.0
+    for p in range(lo, hi):
+        if x[p, 0] < lower[0] or x[p, 0] > upper[0] or x[p, 1] < lower[1] or x[p, 1] > upper[1]:
+            continue
+        f = (F[p, 0], F[p, 1], F[p, 2], F[p, 3])
+        R = rotation_of(f)
+        H = product(product(R, f), (R[0], R[2], R[1], R[3]))
+        ax, ay = a[p, 0] - gravity[0], a[p, 1] - gravity[1]
+        Ax += m[p] * (ax * (H[0] - 1.0) + ay * H[2] - v[p, 0] * L[p, 0] - v[p, 1] * L[p, 2])
+        Ay += m[p] * (ax * H[1] + ay * (H[3] - 1.0) - v[p, 0] * L[p, 1] - v[p, 1] * L[p, 3])
+        inside += volume[p] * (f[0] * f[3] - f[1] * f[2])
+    return Ax, Ay, inside
+
+
+def integrate_contour(model, state, scratch, crack, tip, cells, terms, gravity) -> Contour:
+    """Return J along x and y on the rectangle of +-`cells` cells around the node nearest to `tip`.
+
+    tip: position (m); terms: 1 for the line integral alone, 2 with the area integral of the inertia
+    """
+    lattice = model.lattice
+    centre = [round((x - low) / lattice.width) for x, low in zip(tip, lattice.lower, strict=True)]
+    box = Box(centre[0] - cells, centre[1] - cells, 2 * cells + 1, 2 * cells + 1)
+    if min(box.i, box.j) < 0 or any(
+        c + cells > n for c, n in zip(centre, lattice.cells, strict=True)
+    ):
+        return Contour(np.nan, np.nan, "the contour does not fit in the grid")
+    walk = _Walk(model, state, scratch, crack, box)
+    Jx, Jy = walk.line_integral()
+    if terms == 2:
+        lower = np.array(lattice.lower) + lattice.width * np.array([box.i, box.j])
+        upper = lower + 2 * cells * lattice.width
+        Ax, Ay, inside = (
+            sum(s)
+            for s in zip(
+                *(
+                    area_term(state.particles, gravity, lower, upper, b.lo, b.hi)
+                    for b in model.blocks
+                ),
+                strict=True,
+            )
+        )
+        if inside > 0.0:
+            scale = (2 * cells * lattice.width) ** 2 / inside
+            Jx, Jy = Jx + scale * Ax, Jy + scale * Ay
+    return Contour(Jx, Jy, walk.trouble())
+
+
+class _Walk:
+    """One way round a contour."""
+
+    def __init__(self, model, state, scratch, crack, box):
+        self.model, self.scratch, self.crack, self.box = model, scratch, crack, box
+        self.nodes = len(scratch.rows.first)
+        sums = np.zeros((box.wide * box.high + int(scratch.rows.count[0]), 10))
+        for b in model.blocks:
+            sum_fields(
+                sums, state.particles, scratch.stencil, b.shape, model.strides, box, self.nodes, b.lo, b.hi
+            )
+        self.mass = sums[:, 0].copy()
+        self.fields = sums / np.where(self.mass > 0.0, self.mass, 1.0)[:, None]
+        self.crossings = 0
+        self.other_cracks = 0
+        self.empty = 0
+
+    def line_integral(self):
+        """Return the line integrals of q_x and q_y, counter-clockwise."""
+        corners = self._corners()
+        total = np.zeros(2)
+        for here, there in zip(corners, corners[1:] + corners[:1], strict=True):
+            total += self._edge(here, there)
+        return float(total[0]), float(total[1])
+
+    def trouble(self) -> str:
+        """Return why the integral can not be trusted, or an empty text."""
+        if self.crossings == 0:
+            return "the crack does not cross its contour"
+        if self.crossings > 1:
+            return "the crack crosses its contour more than once"
+        if self.other_cracks:
+            return "another crack crosses the contour"
+        if self.empty:
+            return "the contour leaves the body"
+        return ""
+
+    def _corners(self):
+        box = self.box
+        i, j, w, h = box.i, box.j, box.wide - 1, box.high - 1
+        return (
+            [(i + k, j) for k in range(w)]
+            + [(i + w, j + k) for k in range(h)]
+            + [(i + w - k, j + h) for k in range(w)]
+            + [(i, j + h - k) for k in range(h)]
+        )
+
+    def _edge(self, here, there):
+        """Integrate from one node to the next, on both sides of the crack if it passes between."""
+        width = self.model.lattice.width
+        normal = ((there[1] - here[1]), -(there[0] - here[0]))
+        a, b = self._own(here), self._own(there)
+        hit = self._crossing(here, there)
+        if hit is None:
+            return 0.5 * width * (_integrand(a, normal) + _integrand(b, normal))
+        self.crossings += 1
+        f = hit
+        before = (1 - f) * a + f * self._across(there)
+        after = (1 - f) * self._across(here) + f * b
+        first = 0.5 * f * width * (_integrand(a, normal) + _integrand(before, normal))
+        return first + 0.5 * (1 - f) * width * (_integrand(after, normal) + _integrand(b, normal))
+
+    def _local(self, at):
+        return at[0] - self.box.i + (at[1] - self.box.j) * self.box.wide
+
+    def _own(self, at):
+        """Fields of the side on which the node lies."""
+        cell_mass = self._full_mass()
+        own = self._local(at)
+        node = at[0] + at[1] * self.model.strides[1]
+        mass, row = self.mass[own], self.scratch.rows.first[node]
+        while row >= 0:
+            mass += self.mass[self.box.wide * self.box.high + row - self.nodes]
+            row = self.scratch.rows.next[row - self.nodes]
+        self.empty += mass < FULL * cell_mass
+        return self.fields[own]
+
+    def _full_mass(self):
+        density = max(b.density for b in self.model.blocks)
+        return density * self.model.lattice.width**2 * self.model.geometry.thickness
+
+    def _across(self, at):
+        """Fields of the other side of the crack at a node; zero where nobody is."""
+        row = find_row(self.scratch.rows, at[0] + at[1] * self.model.strides[1], self.crack, -1)
+        if row < self.nodes:
+            return np.zeros(self.fields.shape[1])
+        return self.fields[self.box.wide * self.box.high + row - self.nodes]
+
+    def _crossing(self, here, there):
+        """Return how far along the edge the crack crosses it, or None."""
+        lattice, segments = self.model.lattice, self.scratch.segments
+        p = [low + lattice.width * c for low, c in zip(lattice.lower, here, strict=True)]
+        n = [low + lattice.width * c for low, c in zip(lattice.lower, there, strict=True)]
+        found = []
+        for s in range(int(segments.used[0])):
+            if crosses(segments.ends, s, *p, *n, ON_CRACK * lattice.width):
+                if segments.crack[s] == self.crack:
+                    found.append(_fraction(p, n, segments.ends[s]))
+                else:
+                    self.other_cracks += 1
+        return found[0] if len(found) % 2 else None
+
+
+def _fraction(p, n, segment):
+    """Return where the line p -> n meets a segment, 0 at p and 1 at n."""
+    ax, ay, bx, by = segment
+
+    def above(x):
+        return (bx - ax) * (x[1] - ay) - (by - ay) * (x[0] - ax)
+
+    return min(1.0, max(0.0, above(p) / (above(p) - above(n))))
+
+
+def _integrand(f, normal):
+    """Return q_x and q_y from the fields at a point: (W + K) n - T . du/dx."""
+    _, uxx, uxy, uyx, uyy, sxx, syy, sxy, W, K = f
+    tx, ty = sxx * normal[0] + sxy * normal[1], sxy * normal[0] + syy * normal[1]
+    return np.array(
+        [
+            (W + K) * normal[0] - (tx * uxx + ty * uyx),
+            (W + K) * normal[1] - (tx * uxy + ty * uyy),
+        ]
+    )
+
+
+def along(direction, contour: Contour) -> tuple[float, float]:
+    """Return J for growth along the crack and the component normal to it."""
+    ex, ey = direction
+    size = hypot(ex, ey)
+    return (
+        (contour.Jx * ex + contour.Jy * ey) / size,
+        (-contour.Jx * ey + contour.Jy * ex) / size,
+    )

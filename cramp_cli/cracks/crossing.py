@@ -1,0 +1,162 @@
+"""Does the line from a particle to a node cross a crack, and from which side?
+
+The velocity field of a particle-node pair is found with this test (Nairn 2003). Every tie has one
+answer, seen from everywhere: a point on a crack (within 1e-9 cells) lies below it, and a vertex
+belongs to one of its two segments. So a crack may run along a grid line, through nodes, through
+particles or along a diagonal, and acts as if it lay a hair above them. Lines that cross a crack twice
+do not cross it.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from cramp_cli.numerics.kernel import kernel
+from cramp_cli.state.paths import EDGE
+
+ON_CRACK = 1e-9  # a point closer to a crack than this (cells) lies on it
+EXTENSION = 4.0  # an edge end is carried on by this many segment lengths
+
+
+class Segments(NamedTuple):
+    """Segments of all cracks, with edge ends carried on into free space, and the cells they touch."""
+
+    ends: np.ndarray  # (segments, 4) x, y of both ends (m)
+    crack: np.ndarray  # (segments,) crack of each segment, ascending
+    head: np.ndarray  # (nodes,) first entry of the list of a cell (by its lowest node), or -1
+    item: np.ndarray  # (entries,) segment of an entry
+    next: np.ndarray  # (entries,) next entry of the same cell, or -1; segments ascend
+    zone: np.ndarray  # (nodes,) 1 for cells whose particles may see a node with several rows
+    used: np.ndarray  # (3,) segments, entries in use, entries wanted
+
+
+def make_segments(node_count: int, segment_count: int, entries: int) -> Segments:
+    """Return empty lists."""
+    return Segments(
+        ends=np.zeros((segment_count, 4)),
+        crack=np.zeros(segment_count, dtype=np.int64),
+        head=np.full(node_count, -1, dtype=np.int64),
+        item=np.zeros(entries, dtype=np.int64),
+        next=np.zeros(entries, dtype=np.int64),
+        zone=np.zeros(node_count, dtype=np.uint8),
+        used=np.zeros(3, dtype=np.int64),
+    )
+
+
+@kernel
+def double_area(ax, ay, bx, by, cx, cy):
+    """Return twice the signed area of the triangle abc; positive when c is left of a -> b."""
+    return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+
+
+@kernel
+def crosses(ends, s, px, py, nx, ny, tolerance):
+    """Return the side of p (+1 above, -1 below) if p -> n crosses segment `s`, else 0.
+
+    tolerance: distance within which a point lies on the segment's line (m)
+    """
+    ax, ay, bx, by = ends[s, 0], ends[s, 1], ends[s, 2], ends[s, 3]
+    limit = tolerance * (abs(bx - ax) + abs(by - ay))
+    p_above = double_area(ax, ay, bx, by, px, py) > limit
+    n_above = double_area(ax, ay, bx, by, nx, ny) > limit
+    if p_above == n_above:
+        return 0
+    # Seen from the node, so that a vertex on the node gives exactly zero.
+    a_left = double_area(nx, ny, px, py, ax, ay) >= 0.0
+    b_left = double_area(nx, ny, px, py, bx, by) >= 0.0
+    if a_left == b_left:
+        return 0
+    return 1 if p_above else -1
+
+
+@kernel
+def crossed_cracks(segments, cell, px, py, nx, ny, tolerance):
+    """Return the first two cracks that the line p -> n crosses, as (a, side_a, segment_a, b, ..., more).
+
+    cell: lowest node of the cell of p; cracks are -1 where there is none; `more` counts further cracks
+    """
+    ends, owner, item, following = segments.ends, segments.crack, segments.item, segments.next
+    a, side_a, seg_a = -1, 0, -1
+    b, side_b, seg_b = -1, 0, -1
+    more = 0
+    entry = segments.head[cell]
+    while entry >= 0:
+        crack = owner[item[entry]]
+        odd, side, seg = False, 0, -1
+        while entry >= 0 and owner[item[entry]] == crack:
+            hit = crosses(ends, item[entry], px, py, nx, ny, tolerance)
+            if hit != 0:
+                odd = not odd
+                if seg < 0:
+                    side, seg = hit, item[entry]
+            entry = following[entry]
+        if odd:
+            if a < 0:
+                a, side_a, seg_a = crack, side, seg
+            elif b < 0:
+                b, side_b, seg_b = crack, side, seg
+            else:
+                more += 1
+    return a, side_a, seg_a, b, side_b, seg_b, more
+
+
+@kernel
+def lay_out_segments(segments, paths):
+    """Copy the segments of all cracks, edge ends carried on; return their number."""
+    point, start, ends = paths.point, paths.start, paths.ends
+    line, owner = segments.ends, segments.crack
+    n = 0
+    for c in range(len(start) - 1):
+        last = start[c + 1] - 2
+        for k in range(start[c], last + 1):
+            for d in range(2):
+                a, b = point[k, d], point[k + 1, d]
+                line[n, d] = a + EXTENSION * (a - b) if k == start[c] and ends[c, 0] == EDGE else a
+                line[n, 2 + d] = b + EXTENSION * (b - a) if k == last and ends[c, 1] == EDGE else b
+            owner[n] = c
+            n += 1
+    return n
+
+
+@kernel
+def cell_range(low, high, lower, width, cells, grown):
+    """Return first and last cell of an axis between two coordinates, grown and clipped."""
+    first = int(np.floor((low - lower) / width)) - grown
+    last = int(np.floor((high - lower) / width)) + grown
+    return max(first, 0), min(last, cells - 1)
+
+
+@kernel
+def list_segments(segments, paths, cells, width, lower, strides, zone_growth):
+    """Fill the lists of segments per cell; return False if they do not fit (`used[2]` says how many).
+
+    A particle tests the segments within one cell of its own; nodes with several rows can be seen from
+    cells within `zone_growth`.
+    """
+    head, item, following, zone = segments.head, segments.item, segments.next, segments.zone
+    head[:] = -1
+    zone[:] = 0
+    count = lay_out_segments(segments, paths)
+    line = segments.ends
+    entries = 0
+    for s in range(count - 1, -1, -1):  # pushed to the front, so that lists ascend
+        for grown in (1, zone_growth):
+            i0, i1 = cell_range(
+                min(line[s, 0], line[s, 2]), max(line[s, 0], line[s, 2]), lower[0], width, cells[0], grown
+            )
+            j0, j1 = cell_range(
+                min(line[s, 1], line[s, 3]), max(line[s, 1], line[s, 3]), lower[1], width, cells[1], grown
+            )
+            for j in range(j0, j1 + 1):
+                for i in range(i0, i1 + 1):
+                    cell = i * strides[0] + j * strides[1]
+                    if grown != 1:
+                        zone[cell] = 1
+                        continue
+                    if entries < len(item):
+                        item[entries] = s
+                        following[entries] = head[cell]
+                        head[cell] = entries
+                    entries += 1
+    segments.used[0], segments.used[1], segments.used[2] = count, min(entries, len(item)), entries
+    return entries <= len(item)

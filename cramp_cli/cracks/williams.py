@@ -1,0 +1,37 @@
+"""The asymptotic field of a crack tip at rest with unit stress intensity factor (Williams 1957)."""
+
+from math import atan2, cos, pi, sin, sqrt
+
+from cramp_cli.numerics.kernel import kernel
+
+
+@kernel
+def unit_stress(mode, x, y):
+    """Return sigma_xx, sigma_yy, sigma_xy (1/sqrt(m)) at (x, y), crack along negative x; mode 1 or 2."""
+    r, half = sqrt(x * x + y * y), 0.5 * atan2(y, x)
+    f, c, s = 1.0 / sqrt(2.0 * pi * r), cos(half), sin(half)
+    c3, s3 = cos(3.0 * half), sin(3.0 * half)
+    if mode == 1:
+        return f * c * (1.0 - s * s3), f * c * (1.0 + s * s3), f * c * s * c3
+    return -f * s * (2.0 + c * c3), f * s * c * c3, f * c * (1.0 - s * s3)
+
+
+@kernel
+def unit_slope(mode, x, y, shear, kappa):
+    """Return du_x/dx and du_y/dx at (x, y) for unit stress intensity factor (1/(Pa sqrt(m)) times Pa).
+
+    shear: shear modulus (Pa); kappa: Kolosov's constant
+    """
+    r, angle = sqrt(x * x + y * y), atan2(y, x)
+    c, s = cos(0.5 * angle), sin(0.5 * angle)
+    f = sqrt(r / (2.0 * pi)) / (2.0 * shear)
+    if mode == 1:
+        u, v = c * (kappa - 1.0 + 2.0 * s * s), s * (kappa + 1.0 - 2.0 * c * c)
+        du = -0.5 * s * (kappa - 1.0 + 2.0 * s * s) + 2.0 * s * c * c
+        dv = 0.5 * c * (kappa + 1.0 - 2.0 * c * c) + 2.0 * s * s * c
+    else:
+        u, v = s * (kappa + 1.0 + 2.0 * c * c), -c * (kappa - 1.0 - 2.0 * s * s)
+        du = 0.5 * c * (kappa + 1.0 + 2.0 * c * c) - 2.0 * s * s * c
+        dv = 0.5 * s * (kappa - 1.0 - 2.0 * s * s) + 2.0 * s * c * c
+    cos_r, sin_r = x / r, y / r
+    return f * (0.5 * cos_r * u - sin_r * du) / r, f * (0.5 * cos_r * v - sin_r * dv) / r

@@ -1,0 +1,1 @@
+"""Reading a deck: every mistake at once, with its line."""

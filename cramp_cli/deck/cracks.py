@@ -1,0 +1,177 @@
+"""What a deck says about cracks and the contact of their faces."""
+
+from collections.abc import Iterator
+from functools import cached_property
+from math import ceil, cos, hypot, radians, sin
+from pathlib import Path
+from typing import Literal
+
+from pydantic import Field
+
+from cramp_cli.deck.points import read_into
+from cramp_cli.schema.section import Name, Section, Wrong, one_of, only_one
+from cramp_cli.schema.units import Angle, Length, Number, Point, pair
+
+LAW = "kind of contact"
+End = Literal["tip", "edge", "plain"]
+FINE = 512  # pieces of an arc when its length is measured and its outline is drawn
+
+
+class Frictional(Section):
+    """Faces that touch slide with Coulomb friction; open ones are free."""
+
+    law: Literal["frictional"] = Field("frictional", description=LAW)
+    mu: Number = Field(0.0, ge=0, description="coefficient of sliding friction")
+    mu_static: Number | None = Field(
+        None, ge=0, description="coefficient before sliding begins; `mu` if not given"
+    )
+
+    def wrong_values(self) -> Iterator[Wrong]:
+        """Rest holds at least as well as sliding."""
+        if self.mu_static is not None and self.mu_static < self.mu:
+            yield ("mu_static",), f"must be at least mu ({self.mu:g}) (got {self.mu_static:g})"
+
+
+class Ignore(Section):
+    """Faces pass through each other."""
+
+    law: Literal["ignore"] = Field("ignore", description=LAW)
+
+
+class Stick(Section):
+    """Faces that touch move together; open ones are free."""
+
+    law: Literal["stick"] = Field("stick", description=LAW)
+
+
+class Glued(Section):
+    """Faces always move together, as if there were no crack."""
+
+    law: Literal["glued"] = Field("glued", description=LAW)
+
+
+AnyContact = one_of("law", Frictional, Ignore, Stick, Glued)
+
+
+class ContactSection(Section):
+    """How faces act on each other."""
+
+    cracks: AnyContact = Field(
+        default_factory=Frictional, description="the two faces of a crack, unless it says otherwise"
+    )
+
+
+class Arc(Section):
+    """A piece of a circle or of an upright ellipse."""
+
+    center: Point = Field(description="centre of the circle")
+    radius: Length | None = Field(None, gt=0, description="radius of a circle")
+    radii: pair(Length) | None = Field(None, description="half axes of an ellipse along x and y")
+    first: Angle = Field(alias="from", description="angle of the start; 0 is the +x direction")
+    last: Angle = Field(alias="to", description="angle of the end; above `from` counter-clockwise")
+
+    @classmethod
+    def wrong_keys(cls, keys: set[str]) -> Iterator[Wrong]:
+        """A circle or an ellipse."""
+        yield from only_one(keys, ("radius", "radii"))
+
+    def wrong_values(self) -> Iterator[Wrong]:
+        """It has a length and does not cover itself."""
+        for axis, radius in enumerate(self.radii or ()):
+            if radius <= 0.0:
+                yield ("radii", axis), f"must be above 0 (got {radius:g} m)"
+        if not 0.0 < abs(self.last - self.first) <= 360.0:
+            turn = abs(self.last - self.first)
+            yield ("to",), f"must be more than 0 and at most 360 degrees from `from` (got {turn:g})"
+
+    def at(self, share: float) -> tuple[float, float]:
+        """Return the point (m) at a share (0 to 1) of the way in angle."""
+        a, b = self.radii or (self.radius, self.radius)
+        angle = radians(self.first + share * (self.last - self.first))
+        return self.center[0] + a * cos(angle), self.center[1] + b * sin(angle)
+
+
+class CrackSection(Section):
+    """A crack: a line from its start to its end."""
+
+    name: Name = Field(description="its name")
+    points: tuple[Point, ...] | None = Field(None, description="its points from start to end")
+    arc: Arc | None = Field(None, description="an arc instead of points")
+    file: str | None = Field(None, description="csv file with one `x,y` row (m) for each point")
+    start: End = Field("tip", description="what its start is: tip, at an edge, or plain end")
+    end: End = Field("tip", description="what its end is: tip, at an edge, or plain end")
+    segment: Length | None = Field(
+        None, gt=0, description="longest piece of the line; half a cell if not given"
+    )
+    contact: AnyContact | None = Field(
+        None, description="contact of its faces; that of `contact` if not given"
+    )
+    motion: Literal["free", "fixed"] = Field(
+        "free", description="whether the line moves with the solid"
+    )
+    plane: Literal["average"] = Field(
+        "average", description="how the line follows its two sides: midway between them"
+    )
+
+    @classmethod
+    def prepare(cls, data: dict, folder: Path | None) -> dict:
+        """Take the points out of the file."""
+        return read_into(data, folder)
+
+    @classmethod
+    def wrong_keys(cls, keys: set[str]) -> Iterator[Wrong]:
+        """The line is given in one way."""
+        yield from only_one(keys, ("points", "arc", "file"))
+
+    def wrong_values(self) -> Iterator[Wrong]:
+        """It must have a length."""
+        if self.points is not None and len(set(self.points)) < 2:
+            count = len(set(self.points))
+            yield ("points",), f"must have at least 2 different points (got {count})"
+
+    @cached_property
+    def corners(self) -> tuple[tuple[float, float], ...]:
+        """The line from start to end (m); an arc as 512 pieces; no point twice in a row."""
+        points = self.points
+        if self.arc is not None:
+            points = [self.arc.at(step / FINE) for step in range(FINE + 1)]
+        kept = [points[0]]
+        kept += [
+            after for before, after in zip(points, points[1:], strict=False) if after != before
+        ]
+        return tuple(kept)
+
+    @property
+    def length(self) -> float:
+        """Length of the line (m)."""
+        return sum(map(_distance, self.corners, self.corners[1:]))
+
+    def path(self, longest: float):
+        """Return points (n, 2) in m from start to end, at most `longest` (m) apart.
+
+        Corners are kept, and points of an arc lie on the arc, equally spaced along it.
+        """
+        import numpy as np
+
+        corners = np.array(self.corners)
+        if self.arc is not None:
+            return self._arc_path(np, corners, longest)
+        pieces = []
+        for before, after in zip(corners, corners[1:], strict=False):
+            count = max(1, ceil(_distance(before, after) / longest - 1e-9))
+            shares = np.arange(count)[:, None] / count
+            pieces.append(before + shares * (after - before))
+        return np.vstack([*pieces, corners[-1:]])
+
+    def _arc_path(self, np, corners, longest: float):
+        steps = np.hypot(*np.diff(corners, axis=0).T)
+        travelled = np.concatenate([[0.0], np.cumsum(steps)])
+        count = max(2, ceil(travelled[-1] / longest - 1e-9))
+        shares = np.interp(
+            np.linspace(0.0, travelled[-1], count + 1), travelled, np.linspace(0.0, 1.0, FINE + 1)
+        )
+        return np.array([self.arc.at(share) for share in shares])
+
+
+def _distance(a, b) -> float:
+    return hypot(b[0] - a[0], b[1] - a[1])

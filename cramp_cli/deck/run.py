@@ -1,0 +1,158 @@
+"""What a deck says about time steps, fracture analysis and output."""
+
+import re
+from collections.abc import Iterator
+from typing import Annotated, Any, Literal
+
+from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
+
+from cramp_cli.schema.section import Count, Flag, Section, Wrong, unknown
+from cramp_cli.schema.units import Damping, Length, Number, Time, complaint
+
+METHODS = ("flip", "pic", "fmpm(k)", "xpic(k)")
+FORM = re.compile(r"(flip|pic)|(fmpm|xpic)\(([1-9][0-9]?)\)")
+
+
+def _known_update(text: str) -> str:
+    if FORM.fullmatch(text):
+        return text
+    if re.fullmatch(r"(fmpm|xpic)\b.*", text):
+        raise complaint(f"must be written {text[:4]}(k) with a whole number k from 1 to 99", text)
+    raise complaint(unknown("update", text, METHODS))
+
+
+def _as_list(value: Any) -> Any:
+    return value if isinstance(value, list | tuple | None.__class__) else [value]
+
+
+Update = Annotated[str, AfterValidator(_known_update)]
+Radii = Annotated[
+    tuple[Length, ...],
+    Field(min_length=1),
+    BeforeValidator(_as_list),
+    WithJsonSchema(
+        {
+            "title": "length (SI: m) or list of lengths",
+            "anyOf": [
+                {"type": "number"},
+                {"type": "string"},
+                {"type": "array", "items": {"anyOf": [{"type": "number"}, {"type": "string"}]}},
+            ],
+        }
+    ),
+]
+
+
+class DampingSection(Section):
+    """Drag in proportion to velocity."""
+
+    grid: Damping = Field(0.0, ge=0, description="drag on the velocity of grid nodes")
+    particle: Damping = Field(0.0, ge=0, description="drag on the velocity of particles")
+
+
+class SolverSection(Section):
+    """How the equations are solved in time."""
+
+    end_time: Time = Field(gt=0, description="time at which the run ends")
+    shape: Literal["linear", "ugimp"] = Field(
+        "ugimp", description="shape functions between particles and grid"
+    )
+    update: Update = Field(
+        "flip", description="velocity update: flip, pic, fmpm(k) or xpic(k) of order k"
+    )
+    strain: Literal["usf", "usl-", "usl+", "usavg-", "usavg+"] = Field(
+        "usavg+", description="when strain is updated: before (usf), after (usl), half and half"
+    )
+    damping: DampingSection = Field(default_factory=DampingSection, description="damping")
+    cfl: Number = Field(0.5, gt=0, le=1, description="share of the longest stable time step")
+    dt: Time | None = Field(None, gt=0, description="upper limit of the time step")
+    leaving: Literal["error", "delete", "clamp"] = Field(
+        "error", description="what to do with particles that leave the grid"
+    )
+
+    def wrong_values(self) -> Iterator[Wrong]:
+        """Linear shape functions need the velocities of the update itself."""
+        if self.shape == "linear" and self.strain in ("usl-", "usavg-"):
+            better = self.strain.replace("-", "+")
+            yield ("strain",), f"'{self.strain}' does not go with shape: linear; use '{better}'"
+
+    @property
+    def update_name(self) -> str:
+        """One of flip, pic, fmpm, xpic."""
+        return self.update.split("(")[0]
+
+    @property
+    def update_order(self) -> int:
+        """The order k of fmpm(k) and xpic(k); 1 for pic, 0 for flip."""
+        order = FORM.fullmatch(self.update)[3]
+        return int(order) if order else int(self.update == "pic")
+
+
+class ContourSection(Section):
+    """The J integral along grid lines around a tip."""
+
+    cells: Count = Field(2, ge=1, le=1000, description="cells from the tip to the contour")
+    terms: Count = Field(
+        1,
+        ge=1,
+        le=2,
+        description="1: the contour alone; 2: and the area inside, for dynamic cracks",
+    )
+
+
+class FractureSection(Section):
+    """When and how J, K_I and K_II are found at the tips."""
+
+    every: Time | None = Field(
+        None, gt=0, description="time between analyses; that of output if not given"
+    )
+    methods: tuple[Literal["domain", "contour"], ...] = Field(
+        ("domain", "contour"), description="interaction integral over a domain, J on a contour"
+    )
+    radius: Radii | None = Field(
+        None, description="one radius or a list for the domain; chosen if not given"
+    )
+    contour: ContourSection = Field(default_factory=ContourSection, description="the contour")
+
+    def wrong_values(self) -> Iterator[Wrong]:
+        """Radii are positive, methods differ."""
+        for place, radius in enumerate(self.radius or ()):
+            if radius <= 0.0:
+                yield ("radius", place), f"must be above 0 (got {radius:g} m)"
+        yield from _twice("methods", self.methods)
+
+
+OutputField = Literal[
+    "stress",
+    "strain",
+    "displacement",
+    "velocity",
+    "acceleration",
+    "deformation_gradient",
+    "energy",
+]
+
+
+class OutputSection(Section):
+    """What is written, and how often."""
+
+    every: Time | None = Field(
+        None, gt=0, description="time between frames; a hundredth of end_time if not given"
+    )
+    history_every: Time | None = Field(
+        None, gt=0, description="time between rows of the history; a tenth of `every` if not given"
+    )
+    fields: tuple[OutputField, ...] = Field(
+        ("stress", "displacement", "velocity"), description="fields of the particles to write"
+    )
+    particles: Flag = Field(True, description="whether frames of particles are written")
+
+    def wrong_values(self) -> Iterator[Wrong]:
+        """Fields differ."""
+        yield from _twice("fields", self.fields)
+
+
+def _twice(key: str, words: tuple[str, ...]) -> Iterator[Wrong]:
+    for place, word in enumerate(words):
+        if word in words[:place]:
+            yield (key, place), f"'{word}' is given twice"

@@ -1,0 +1,129 @@
+"""Regions of the plane: polygons, and shapes made of other shapes."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Literal
+
+from pydantic import Field
+
+from cramp_cli.deck.points import read_into
+from cramp_cli.deck.shape import KIND, Annulus, Disk, Ellipse, Rectangle, Shape
+from cramp_cli.schema.section import Wrong, one_of, only_one
+from cramp_cli.schema.units import Point
+
+
+class Polygon(Shape):
+    """A polygon through its corners, closed by itself."""
+
+    type: Literal["polygon"] = Field("polygon", description=KIND)
+    points: tuple[Point, ...] | None = Field(None, min_length=3, description="its corners in order")
+    file: str | None = Field(None, description="csv file with one `x,y` row (m) for each corner")
+
+    @classmethod
+    def prepare(cls, data: dict, folder: Path | None) -> dict:
+        """Take the points out of the file."""
+        return read_into(data, folder)
+
+    @classmethod
+    def wrong_keys(cls, keys: set[str]) -> Iterator[Wrong]:
+        """Corners come from one place."""
+        yield from only_one(keys, ("points", "file"))
+
+    def wrong_values(self) -> Iterator[Wrong]:
+        """It must not cross itself."""
+        from shapely import is_valid_reason
+
+        outline = self.outline()
+        if not outline.is_valid or outline.area <= 0.0:
+            reason = is_valid_reason(outline).replace("[", " at (").replace("]", ")")
+            yield ("points",), f"is no simple polygon: {reason.lower()}"
+
+    def contains(self, points):
+        """Return which points lie inside; the left and lower border belong to it."""
+        from shapely import contains_xy, prepare
+
+        outline = self.outline()
+        prepare(outline)
+        points = self.nudged(points)
+        return contains_xy(outline, points[:, 0], points[:, 1])
+
+    def bounds(self):
+        """Return the corners of the box around it (m)."""
+        return tuple(map(min, zip(*self.points, strict=True))), tuple(
+            map(max, zip(*self.points, strict=True))
+        )
+
+    def outline(self):
+        """Return the polygon."""
+        from shapely import Polygon as Region
+
+        return Region(self.points)
+
+
+class Union(Shape):
+    """All that lies in at least one of several shapes."""
+
+    type: Literal["union"] = Field("union", description=KIND)
+    of: tuple["AnyShape", ...] = Field(min_length=1, description="the shapes to join")
+
+    def contains(self, points):
+        """Return which points lie in one of the shapes."""
+        inside = self.of[0].contains(points)
+        for shape in self.of[1:]:
+            inside |= shape.contains(points)
+        return inside
+
+    def bounds(self):
+        """Return the corners of the box around all (m)."""
+        lowers, uppers = zip(*(shape.bounds() for shape in self.of), strict=True)
+        return (
+            tuple(map(min, zip(*lowers, strict=True))),
+            tuple(map(max, zip(*uppers, strict=True))),
+        )
+
+    def outline(self):
+        """Return the union of the outlines."""
+        from shapely import union_all
+
+        return union_all([shape.outline() for shape in self.of])
+
+
+class Difference(Shape):
+    """A shape without what lies in others."""
+
+    type: Literal["difference"] = Field("difference", description=KIND)
+    of: "AnyShape" = Field(description="the shape to cut")
+    minus: tuple["AnyShape", ...] = Field(min_length=1, description="the shapes to cut away")
+
+    def wrong_values(self) -> Iterator[Wrong]:
+        """Something must be left."""
+        from shapely.errors import ShapelyError
+
+        try:
+            if self.outline().is_empty:
+                yield ("minus",), "cuts everything away"
+        except ShapelyError as problem:
+            yield ("minus",), f"cannot be cut away: {problem}"
+
+    def contains(self, points):
+        """Return which points lie in the shape and in none of those cut away."""
+        inside = self.of.contains(points)
+        for shape in self.minus:
+            inside &= ~shape.contains(points)
+        return inside
+
+    def bounds(self):
+        """Return the corners of the box around what is left (m)."""
+        x0, y0, x1, y1 = self.outline().bounds
+        return (x0, y0), (x1, y1)
+
+    def outline(self):
+        """Return the outline of what is left."""
+        from shapely import union_all
+
+        return self.of.outline() - union_all([shape.outline() for shape in self.minus])
+
+
+AnyShape = one_of("type", Rectangle, Disk, Ellipse, Polygon, Annulus, Union, Difference)
+for _shape in (Union, Difference):
+    _shape.model_rebuild()

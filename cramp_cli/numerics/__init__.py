@@ -1,0 +1,1 @@
+"""Compiled kernels, tensors and dispatch: knows no physics."""

@@ -1,0 +1,50 @@
+"""Functions chosen by the type of their first argument, inside and outside compiled code.
+
+A law or a shape function is a NamedTuple of numbers; `generic` picks the body that was written for
+its type. A vector is a tuple of as many numbers as there are dimensions; `by_length` picks the body
+for its length. Numba decides while it compiles, so no branch is left in a loop, and the result can
+be cached on disk (closures and functions passed as arguments can not).
+"""
+
+from functools import wraps
+
+from numba.extending import overload
+
+
+def generic(declaration):
+    """Turn a documented, empty declaration into a function with one body per record type.
+
+    Bodies are added with ``@name.implement(RecordType)``. They take their arguments by position, so
+    every body keeps the declared order.
+    """
+    return _dispatched(declaration, type, lambda numba_type: getattr(numba_type, "instance_class", None))
+
+
+def by_length(declaration):
+    """Turn a declaration into a function with one body per length of its first tuple.
+
+    Bodies are added with ``@name.implement(length)``; the declaration itself serves all other lengths.
+    """
+    return _dispatched(declaration, len, len, default=declaration)
+
+
+def _dispatched(declaration, key_of_value, key_of_type, default=None):
+    bodies = {}
+
+    @wraps(declaration)
+    def call(first, *args):
+        return bodies.get(key_of_value(first), default)(first, *args)
+
+    @overload(call, strict=False)
+    def resolve(first, *args):
+        return bodies.get(key_of_type(first), default)
+
+    def implement(key):
+        def add(body):
+            bodies[key] = body
+            return body
+
+        return add
+
+    call.implement = implement
+    return call

@@ -1,0 +1,361 @@
+"""Vectors and tensors of a particle as tuples: no allocation, any dimension.
+
+A vector has 2 or 3 components; a matrix is stored row by row (4 or 9); a symmetric tensor in the
+order xx, yy, zz, xy, yz, xz, of which a plane problem keeps the first four.
+"""
+
+from math import atan2, cos, sin
+
+from cramp_cli.numerics.dispatch import by_length
+
+__all__ = [
+    "add_outer", "apply", "determinant", "dot", "increment", "matrix", "outer", "outer_sum", "pick",
+    "plus", "product", "rotation_of", "scaled", "solid_strain", "times", "turn", "vector", "work_of",
+    "zero_matrix",
+]  # fmt: skip
+
+
+@by_length
+def scaled(a, s):
+    """Return every entry of the tuple `a` times `s`."""
+    return (a[0] * s,) + scaled(a[1:], s)
+
+
+@scaled.implement(1)
+def _(a, s):
+    return (a[0] * s,)
+
+
+@by_length
+def shifted(a, s):
+    """Return every entry of the tuple `a` plus `s`."""
+    return (a[0] + s,) + shifted(a[1:], s)
+
+
+@shifted.implement(1)
+def _(a, s):
+    return (a[0] + s,)
+
+
+@by_length
+def outer(b, a):
+    """Return all products a_i b_j as one flat tuple, `a` running fastest."""
+    return scaled(a, b[0]) + outer(b[1:], a)
+
+
+@outer.implement(1)
+def _(b, a):
+    return scaled(a, b[0])
+
+
+@by_length
+def outer_sum(b, a):
+    """Return all sums a_i + b_j as one flat tuple, `a` running fastest."""
+    return shifted(a, b[0]) + outer_sum(b[1:], a)
+
+
+@outer_sum.implement(1)
+def _(b, a):
+    return shifted(a, b[0])
+
+
+@by_length
+def vector(like, a, i):
+    """Return row `i` of the array `a` as a tuple as long as `like`."""
+
+
+@vector.implement(2)
+def _(like, a, i):
+    return (a[i, 0], a[i, 1])
+
+
+@vector.implement(3)
+def _(like, a, i):
+    return (a[i, 0], a[i, 1], a[i, 2])
+
+
+@by_length
+def pick(axes, k):
+    """Return entry `k` of each of the tuples in `axes`."""
+
+
+@pick.implement(2)
+def _(axes, k):
+    return (axes[0][k], axes[1][k])
+
+
+@pick.implement(3)
+def _(axes, k):
+    return (axes[0][k], axes[1][k], axes[2][k])
+
+
+@by_length
+def plus(a, s, b):
+    """Return a + s b."""
+
+
+@plus.implement(2)
+def _(a, s, b):
+    return (a[0] + s * b[0], a[1] + s * b[1])
+
+
+@plus.implement(3)
+def _(a, s, b):
+    return (a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2])
+
+
+@by_length
+def dot(a, b):
+    """Return the scalar product of two vectors."""
+
+
+@dot.implement(2)
+def _(a, b):
+    return a[0] * b[0] + a[1] * b[1]
+
+
+@dot.implement(3)
+def _(a, b):
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+@by_length
+def times(v, number):
+    """Return the vector `v` times a number."""
+
+
+@times.implement(2)
+def _(v, number):
+    return (v[0] * number, v[1] * number)
+
+
+@times.implement(3)
+def _(v, number):
+    return (v[0] * number, v[1] * number, v[2] * number)
+
+
+@by_length
+def add_outer(v, g, A):
+    """Return the matrix A + v g^T."""
+
+
+@add_outer.implement(2)
+def _(v, g, A):
+    return (A[0] + v[0] * g[0], A[1] + v[0] * g[1], A[2] + v[1] * g[0], A[3] + v[1] * g[1])
+
+
+@add_outer.implement(3)
+def _(v, g, A):
+    return (
+        A[0] + v[0] * g[0], A[1] + v[0] * g[1], A[2] + v[0] * g[2],
+        A[3] + v[1] * g[0], A[4] + v[1] * g[1], A[5] + v[1] * g[2],
+        A[6] + v[2] * g[0], A[7] + v[2] * g[1], A[8] + v[2] * g[2],
+    )  # fmt: skip
+
+
+@by_length
+def zero_matrix(like):
+    """Return a matrix of zeros for vectors as long as `like`."""
+
+
+@zero_matrix.implement(2)
+def _(like):
+    return (0.0, 0.0, 0.0, 0.0)
+
+
+@zero_matrix.implement(3)
+def _(like):
+    return (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+@by_length
+def matrix(like, a, i):
+    """Return row `i` of the array `a` as a tuple as long as the matrix `like`."""
+
+
+@matrix.implement(4)
+def _(like, a, i):
+    return (a[i, 0], a[i, 1], a[i, 2], a[i, 3])
+
+
+@matrix.implement(9)
+def _(like, a, i):
+    return (
+        a[i, 0], a[i, 1], a[i, 2], a[i, 3], a[i, 4], a[i, 5], a[i, 6], a[i, 7], a[i, 8],
+    )  # fmt: skip
+
+
+@by_length
+def apply(g, stress, p):
+    """Return the symmetric tensor in row `p` of `stress` times the vector `g`."""
+
+
+@apply.implement(2)
+def _(g, stress, p):
+    return (
+        stress[p, 0] * g[0] + stress[p, 3] * g[1],
+        stress[p, 3] * g[0] + stress[p, 1] * g[1],
+    )
+
+
+@apply.implement(3)
+def _(g, stress, p):
+    return (
+        stress[p, 0] * g[0] + stress[p, 3] * g[1] + stress[p, 5] * g[2],
+        stress[p, 3] * g[0] + stress[p, 1] * g[1] + stress[p, 4] * g[2],
+        stress[p, 5] * g[0] + stress[p, 4] * g[1] + stress[p, 2] * g[2],
+    )
+
+
+@by_length
+def product(A, B):
+    """Return the matrix product A B."""
+
+
+@product.implement(4)
+def _(A, B):
+    return (
+        A[0] * B[0] + A[1] * B[2], A[0] * B[1] + A[1] * B[3],
+        A[2] * B[0] + A[3] * B[2], A[2] * B[1] + A[3] * B[3],
+    )  # fmt: skip
+
+
+@product.implement(9)
+def _(A, B):
+    return (
+        A[0] * B[0] + A[1] * B[3] + A[2] * B[6],
+        A[0] * B[1] + A[1] * B[4] + A[2] * B[7],
+        A[0] * B[2] + A[1] * B[5] + A[2] * B[8],
+        A[3] * B[0] + A[4] * B[3] + A[5] * B[6],
+        A[3] * B[1] + A[4] * B[4] + A[5] * B[7],
+        A[3] * B[2] + A[4] * B[5] + A[5] * B[8],
+        A[6] * B[0] + A[7] * B[3] + A[8] * B[6],
+        A[6] * B[1] + A[7] * B[4] + A[8] * B[7],
+        A[6] * B[2] + A[7] * B[5] + A[8] * B[8],
+    )
+
+
+@by_length
+def increment(dU):
+    """Return exp(dU) to second order, the deformation gradient of one step."""
+
+
+@increment.implement(4)
+def _(dU):
+    Q = product(dU, dU)
+    return (
+        1.0 + dU[0] + 0.5 * Q[0], dU[1] + 0.5 * Q[1],
+        dU[2] + 0.5 * Q[2], 1.0 + dU[3] + 0.5 * Q[3],
+    )  # fmt: skip
+
+
+@increment.implement(9)
+def _(dU):
+    Q = product(dU, dU)
+    return (
+        1.0 + dU[0] + 0.5 * Q[0], dU[1] + 0.5 * Q[1], dU[2] + 0.5 * Q[2],
+        dU[3] + 0.5 * Q[3], 1.0 + dU[4] + 0.5 * Q[4], dU[5] + 0.5 * Q[5],
+        dU[6] + 0.5 * Q[6], dU[7] + 0.5 * Q[7], 1.0 + dU[8] + 0.5 * Q[8],
+    )  # fmt: skip
+
+
+@by_length
+def determinant(A):
+    """Return the determinant of a matrix."""
+
+
+@determinant.implement(4)
+def _(A):
+    return A[0] * A[3] - A[1] * A[2]
+
+
+@determinant.implement(9)
+def _(A):
+    return (
+        A[0] * (A[4] * A[8] - A[5] * A[7])
+        - A[1] * (A[3] * A[8] - A[5] * A[6])
+        + A[2] * (A[3] * A[7] - A[4] * A[6])
+    )
+
+
+@by_length
+def solid_strain(dU, zz):
+    """Return the strain step (xx, yy, zz, xy, yz, xz; tensor shear) of the gradient step dU.
+
+    In a plane problem the strain step normal to the plane is `zz`; in a solid it is part of dU.
+    """
+
+
+@solid_strain.implement(4)
+def _(dU, zz):
+    return (dU[0], dU[3], zz, 0.5 * (dU[1] + dU[2]), 0.0, 0.0)
+
+
+@solid_strain.implement(9)
+def _(dU, zz):
+    return (
+        dU[0], dU[4], dU[8],
+        0.5 * (dU[1] + dU[3]), 0.5 * (dU[5] + dU[7]), 0.5 * (dU[2] + dU[6]),
+    )  # fmt: skip
+
+
+@by_length
+def turn(dU, stress, p):
+    """Return the stress in row `p` turned by the rotation of the gradient step dU, six components.
+
+    The rotation is the Cayley transform of the spin: orthogonal to round-off, so a spinning body
+    keeps its stress (Hughes and Winget 1980).
+    """
+
+
+@turn.implement(4)
+def _(dU, stress, p):
+    half = 0.25 * (dU[2] - dU[1])
+    scale = 1.0 / (1.0 + half * half)
+    c, s = (1.0 - half * half) * scale, 2.0 * half * scale
+    xx, yy, zz, xy = stress[p, 0], stress[p, 1], stress[p, 2], stress[p, 3]
+    cc, ss, cs = c * c, s * s, c * s
+    return (
+        cc * xx + ss * yy - 2.0 * cs * xy,
+        ss * xx + cc * yy + 2.0 * cs * xy,
+        zz,
+        cs * (xx - yy) + (cc - ss) * xy,
+        0.0,
+        0.0,
+    )
+
+
+@turn.implement(9)
+def _(dU, stress, p):
+    a, b, c = 0.25 * (dU[7] - dU[5]), 0.25 * (dU[2] - dU[6]), 0.25 * (dU[3] - dU[1])
+    f = 2.0 / (1.0 + a * a + b * b + c * c)
+    R = (
+        1.0 - f * (b * b + c * c), f * (a * b - c), f * (a * c + b),
+        f * (a * b + c), 1.0 - f * (a * a + c * c), f * (b * c - a),
+        f * (a * c - b), f * (b * c + a), 1.0 - f * (a * a + b * b),
+    )  # fmt: skip
+    xx, yy, zz = stress[p, 0], stress[p, 1], stress[p, 2]
+    xy, yz, xz = stress[p, 3], stress[p, 4], stress[p, 5]
+    T = product(product(R, (xx, xy, xz, xy, yy, yz, xz, yz, zz)), (
+        R[0], R[3], R[6], R[1], R[4], R[7], R[2], R[5], R[8],
+    ))  # fmt: skip
+    return (T[0], T[4], T[8], T[1], T[5], T[2])
+
+
+@by_length
+def work_of(a, b, strain):
+    """Return (a + b)/2 : strain for symmetric tensors of six components, tensor shear."""
+    normal = (a[0] + b[0]) * strain[0] + (a[1] + b[1]) * strain[1] + (a[2] + b[2]) * strain[2]
+    shear = (a[3] + b[3]) * strain[3] + (a[4] + b[4]) * strain[4] + (a[5] + b[5]) * strain[5]
+    return 0.5 * normal + shear
+
+
+@by_length
+def rotation_of(F):
+    """Return the rotation R of the polar decomposition F = R U."""
+
+
+@rotation_of.implement(4)
+def _(F):
+    angle = atan2(F[2] - F[1], F[0] + F[3])
+    return (cos(angle), -sin(angle), sin(angle), cos(angle))

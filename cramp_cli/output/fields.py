@@ -1,0 +1,179 @@
+"""Particles and cracks over time: numbers in HDF5, beside them an XDMF file that ParaView opens.
+
+Every frame has its own points, so that particles may move and cracks may grow. The HDF5 file is
+opened, extended and closed for each frame and the XDMF file replaced as a whole after it: both can
+be read at any moment, also after the run was killed.
+"""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from cramp_cli.output.atomic import write_text
+from cramp_cli.output.exits import FolderError
+from cramp_cli.output.xdmf import collection, grid
+
+PACKED = {"compression": "gzip", "compression_opts": 1, "shuffle": True}
+
+
+class Frame(NamedTuple):
+    """All particles, or all cracks, at one moment."""
+
+    step: int
+    time: float  # s
+    points: np.ndarray  # (n, 3), m
+    fields: dict[str, np.ndarray]  # name: (n,), (n, 3) or (n, 9); of cracks also (n_lines,)
+    offsets: np.ndarray | None  # (n_lines + 1,) first point of every line; None for particles
+
+
+class FrameWriter:
+    """Writes `kind`.h5 and `kind`.xdmf in a folder, one frame after the other.
+
+    resume_at: keep the frames of older files up to this step and go on after them
+    real: type of the floating point numbers on disk
+    """
+
+    def __init__(
+        self, folder: Path, kind: str, real: str = "f4", resume_at: int | None = None
+    ) -> None:
+        self.data = Path(folder) / f"{kind}.h5"
+        self.index = Path(folder) / f"{kind}.xdmf"
+        self.kind, self.real = kind, real
+        self._grids: list[str] = []
+        self._count = 0
+        if resume_at is None:
+            self.data.unlink(missing_ok=True)
+            self.index.unlink(missing_ok=True)
+        elif self.data.exists():
+            self._take_up(resume_at)
+
+    def write(
+        self,
+        step: int,
+        time: float,
+        points: np.ndarray,
+        fields: dict[str, np.ndarray],
+        lines: np.ndarray | None = None,
+    ) -> None:
+        """Add one frame.
+
+        points: (n, 2) or (n, 3) positions (m)
+        fields: per point (n,), (n, 2 or 3), (n, 2, 2), (n, 3, 3) or (n, 9); or per line (n_lines,)
+        lines: (n_lines + 1,) first point of every line; None if the points are particles
+        """
+        frame = _tidy(Frame(step, time, points, fields, lines), self.real)
+        with _open(self.data, "a") as file:
+            name = f"frame_{self._count:06d}"
+            if name in file:  # left by a write that did not come to its end
+                del file[name]
+            _store(file.create_group(name), frame)
+        self._add(name, frame)
+        write_text(self.index, collection(self.kind, self._grids))
+
+    def _add(self, name: str, frame: Frame) -> None:
+        self._count += 1
+        if len(frame.points):  # VTK has no grid without points
+            self._grids.append(grid(f"{self.data.name}:/{name}", frame))
+
+    def _take_up(self, step: int) -> None:
+        with _open(self.data, "a") as file:
+            for name in sorted(file):
+                if "time" in file[name].attrs and file[name].attrs["step"] <= step:
+                    self._add(name, _load(file[name]))
+                else:
+                    del file[name]
+        write_text(self.index, collection(self.kind, self._grids))
+
+
+def read_frames(path: str | Path) -> Iterator[Frame]:
+    """Yield every complete frame of a .h5 file (or of the one beside a .xdmf file), in order."""
+    data = Path(path).with_suffix(".h5")
+    if not data.exists():
+        raise FolderError(f"{data}: no such file")
+    try:
+        file = _open(data, "r")
+    except OSError as error:
+        raise FolderError(f"{data}: cannot be read as HDF5 ({error})") from None
+    with file:
+        for name in sorted(file):
+            if "time" in file[name].attrs:
+                yield _load(file[name])
+
+
+def count_frames(path: str | Path) -> int:
+    """Return how many complete frames a .h5 file holds; none if there is no file."""
+    if not Path(path).exists():
+        return 0
+    with _open(Path(path), "r") as file:
+        return sum("time" in group.attrs for group in file.values())
+
+
+def tensor_of_plane(values: np.ndarray) -> np.ndarray:
+    """Return (n, 9) tensors of (n, 4) components xx, yy, zz, xy."""
+    xx, yy, zz, xy = np.asarray(values).T
+    zero = np.zeros_like(xx)
+    return np.stack([xx, xy, zero, xy, yy, zero, zero, zero, zz], axis=1)
+
+
+def _open(path: Path, mode: str):
+    """Open without a lock of its own: whoever looks at the file must not stop the run."""
+    import h5py  # late: keeps `cramp --help` fast
+
+    return h5py.File(path, mode, libver=("earliest", "v110"), locking=False)
+
+
+def _store(group, frame: Frame) -> None:
+    _dataset(group, "points", frame.points)
+    if frame.offsets is None:
+        _dataset(group, "cells", np.arange(len(frame.points), dtype="i4"))
+    else:
+        _dataset(group, "offsets", frame.offsets)
+        _dataset(group, "cells", polylines(frame.offsets))
+    for name, values in frame.fields.items():
+        _dataset(group, f"fields/{name}", values)
+    group.attrs["step"] = frame.step
+    group.attrs["time"] = frame.time  # last: a frame without it is not complete
+
+
+def _dataset(group, name: str, values: np.ndarray) -> None:
+    group.create_dataset(name, data=values, **(PACKED if values.size else {}))
+
+
+def _load(group) -> Frame:
+    fields = {name: data[()] for name, data in group["fields"].items()} if "fields" in group else {}
+    offsets = group["offsets"][()] if "offsets" in group else None
+    step, time = int(group.attrs["step"]), float(group.attrs["time"])
+    return Frame(step, time, group["points"][()], fields, offsets)
+
+
+def polylines(offsets: np.ndarray) -> np.ndarray:
+    """Return the mixed topology of XDMF: 2 (polyline), number of points, points; of every line."""
+    ends = zip(offsets[:-1], offsets[1:], strict=True)
+    return np.array([i for a, b in ends for i in (2, b - a, *range(a, b))], dtype="i4")
+
+
+def _tidy(frame: Frame, real: str) -> Frame:
+    """Bring a frame into the shapes and types of the file."""
+    offsets = None if frame.offsets is None else np.asarray(frame.offsets, dtype="i4")
+    counts = {len(frame.points)} | (set() if offsets is None else {len(offsets) - 1})
+    points = _components("points", frame.points, counts, real)
+    fields = {name: _components(name, v, counts, real) for name, v in frame.fields.items()}
+    return Frame(int(frame.step), float(frame.time), points.reshape(-1, 3), fields, offsets)
+
+
+def _components(name: str, values: np.ndarray, counts: set[int], real: str) -> np.ndarray:
+    values = np.asarray(values)
+    if len(values) not in counts:
+        raise ValueError(f"field {name}: {len(values)} values for {max(counts)} points")
+    values = values.astype(real if values.dtype.kind == "f" else "i4", copy=False)
+    if values.shape[1:] == (2,):
+        return np.pad(values, ((0, 0), (0, 1)))
+    if values.shape[1:] == (2, 2):
+        values = np.pad(values, ((0, 0), (0, 1), (0, 1)))
+    if values.shape[1:] == (3, 3):
+        return values.reshape(-1, 9)
+    if values.shape[1:] not in ((), (3,), (9,)):
+        raise ValueError(f"field {name}: no way to write the shape {values.shape}")
+    return values

@@ -1,0 +1,131 @@
+"""Tables of a run: history.csv, cracks.csv, growth.csv, and columns.json that explains them."""
+
+import csv
+import io
+from collections.abc import Iterable
+from pathlib import Path
+
+import numpy as np
+
+from cramp_cli.output.atomic import write_json, write_text
+from cramp_cli.output.exits import FolderError
+
+# name: (unit, meaning)
+HISTORY_COLUMNS = {
+    "step": ("1", "number of time steps done"),
+    "time": ("s", "time"),
+    "dt": ("s", "length of the last time step"),
+    "kinetic_energy": ("J", "kinetic energy of the particles"),
+    "strain_energy": ("J", "elastic energy stored in the particles"),
+    "fracture_energy": ("J", "energy spent on new crack surface"),
+    "friction_energy": ("J", "energy spent by friction of crack faces and bodies"),
+    "plastic_energy": ("J", "energy spent in plastic and viscous strain"),
+    "damping_energy": ("J", "energy taken by grid and particle damping"),
+    "external_work": ("J", "work of loads and moving boundaries"),
+    "energy_error": ("1", "sum of all energies minus start and work, over the largest of them"),
+    "momentum_x": ("N*s", "momentum of all particles along x"),
+    "momentum_y": ("N*s", "momentum of all particles along y"),
+}
+REACTION = ("N", "force of this boundary on the bodies, mean since the row before")
+
+CRACK_COLUMNS = {
+    "step": ("1", "number of time steps done"),
+    "time": ("s", "time"),
+    "crack": ("", "name of the crack"),
+    "tip": ("", "start or end"),
+    "x": ("m", "position of the tip"),
+    "y": ("m", "position of the tip"),
+    "angle": ("rad", "direction in which the crack points at the tip, from the x axis"),
+    "length": ("m", "length of the whole crack"),
+    "speed": ("m/s", "speed of growth of this tip"),
+    "J": ("J/m^2", "J integral over a domain, energy release rate of the tip"),
+    "K_I": ("Pa*m^0.5", "stress intensity of opening"),
+    "K_II": ("Pa*m^0.5", "stress intensity of sliding in the plane"),
+    "K_III": ("Pa*m^0.5", "stress intensity of sliding out of the plane"),
+    "ctod_n": ("m", "opening of the faces near the tip, along their normal"),
+    "ctod_t": ("m", "sliding of the faces near the tip"),
+    "J_contour": ("J/m^2", "J integral over a contour on grid lines"),
+    "K_I_contour": ("Pa*m^0.5", "K_I from J_contour and the opening of the faces"),
+    "K_II_contour": ("Pa*m^0.5", "K_II from J_contour and the opening of the faces"),
+    "J_spread": ("1", "spread of J over several domains, over its mean"),
+    "status": ("", "ok, shrunk, closed, or invalid and why"),
+}
+
+GROWTH_COLUMNS = {
+    "step": ("1", "number of time steps done"),
+    "time": ("s", "time"),
+    "crack": ("", "name of the crack"),
+    "tip": ("", "start or end"),
+    "kind": ("", "growth, arrest, edge, merge or debond"),
+    "x": ("m", "position of the tip after the event"),
+    "y": ("m", "position of the tip after the event"),
+    "angle": ("rad", "direction of the new piece, from the x axis"),
+    "length": ("m", "length of the whole crack after the event"),
+    "J": ("J/m^2", "energy release rate that drove the event"),
+    "K_I": ("Pa*m^0.5", "stress intensity of opening before the event"),
+    "K_II": ("Pa*m^0.5", "stress intensity of sliding before the event"),
+    "energy": ("J", "energy spent on the new surface"),
+}
+
+
+class CsvTable:
+    """A table on disk that is complete after every row.
+
+    columns: names, in the order of the file
+    resume_at: keep the rows of an older table up to this step and go on after them
+    """
+
+    def __init__(self, path: Path, columns: Iterable[str], resume_at: int | None = None) -> None:
+        self.path, self.columns = Path(path), tuple(columns)
+        old = self._rows_until(resume_at) if resume_at is not None else []
+        write_text(self.path, "".join([_line(self.columns), *old]))
+
+    def write(self, row: dict) -> None:
+        """Append one row; a column without a value is written as nan."""
+        unknown = set(row) - set(self.columns)
+        if unknown:
+            raise ValueError(f"{self.path.name}: no column named {', '.join(sorted(unknown))}")
+        line = _line(_cell(row.get(name, float("nan"))) for name in self.columns)
+        with self.path.open("a", encoding="utf-8", newline="") as file:
+            file.write(line)
+
+    def _rows_until(self, step: int) -> list[str]:
+        if not self.path.exists():
+            return []
+        lines = self.path.read_text(encoding="utf-8").splitlines(keepends=True)
+        if lines[:1] != [_line(self.columns)]:
+            raise FolderError(f"{self.path}: has other columns than this run writes")
+        whole = (line for line in lines[1:] if line.endswith("\n"))
+        at = self.columns.index("step")
+        return [line for line in whole if int(next(csv.reader([line]))[at]) <= step]
+
+
+def history_columns(names: Iterable[str]) -> dict[str, tuple[str, str]]:
+    """Return the columns of history.csv, with the reactions among `names` at the end."""
+    extra = [name for name in names if name not in HISTORY_COLUMNS]
+    strange = [name for name in extra if not name.startswith("reaction_")]
+    if strange:
+        raise ValueError(f"history.csv: no column named {', '.join(strange)}")
+    return HISTORY_COLUMNS | dict.fromkeys(extra, REACTION)
+
+
+def write_columns(folder: Path, history: dict[str, tuple[str, str]]) -> None:
+    """Write columns.json: unit and meaning of every column of every table."""
+    tables = {"history.csv": history, "cracks.csv": CRACK_COLUMNS, "growth.csv": GROWTH_COLUMNS}
+    write_json(Path(folder) / "columns.json", {name: _explain(t) for name, t in tables.items()})
+
+
+def _explain(columns: dict[str, tuple[str, str]]) -> dict:
+    return {name: {"unit": unit, "meaning": text} for name, (unit, text) in columns.items()}
+
+
+def _line(cells: Iterable) -> str:
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerow(cells)
+    return text.getvalue()
+
+
+def _cell(value: object) -> str:
+    if isinstance(value, float | np.floating):
+        return f"{value:.17g}"
+    return str(value)

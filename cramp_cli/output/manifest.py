@@ -1,0 +1,99 @@
+"""Who ran what, where and with which outcome: manifest.json; and how far it is: status.json."""
+
+import hashlib
+import os
+import platform
+import socket
+import sys
+import time
+from datetime import UTC, datetime
+from pathlib import Path
+
+from cramp_cli.numerics.cache import source_hash
+from cramp_cli.output.atomic import write_json
+from cramp_cli.output.exits import DONE, INTERRUPTED, exit_code, one_line
+from cramp_cli.output.folder import PROGRAM
+from cramp_cli.output.machine import versions
+
+FORMAT = 1
+SECONDS_BETWEEN_STATUS = 1.0
+
+
+class Manifest:
+    """The record of a run, on disk from its first moment and completed at its end."""
+
+    def __init__(self, folder: Path, deck_text: str, threads: int) -> None:
+        self.path = Path(folder) / "manifest.json"
+        self._begun = time.monotonic()
+        self.record = {
+            "program": PROGRAM,
+            "format": FORMAT,
+            "versions": versions(),
+            "source_hash": source_hash(),
+            "deck_sha256": hashlib.sha256(deck_text.encode()).hexdigest(),
+            "argv": list(sys.argv),
+            "directory": os.getcwd(),
+            "host": socket.gethostname(),
+            "system": platform.platform(),
+            "process": os.getpid(),
+            "threads": threads,
+            "start": now(),
+            "end": None,
+            "status": "running",
+            "exit_code": None,
+            "wall_time": None,
+            "error": None,
+            "summary": {},
+        }
+        write_json(self.path, self.record)
+
+    def finish(self, summary: dict) -> None:
+        """Write that the run came to its end."""
+        self._close(status="done", exit_code=DONE, summary=summary)
+
+    def fail(self, error: BaseException) -> None:
+        """Write that the run ended early, and why."""
+        code = exit_code(error)
+        status = "interrupted" if code == INTERRUPTED else "failed"
+        self._close(status=status, exit_code=code, error=one_line(error))
+
+    def _close(self, **outcome: object) -> None:
+        wall = time.monotonic() - self._begun
+        self.record.update(outcome, end=now(), wall_time=wall)
+        write_json(self.path, self.record)
+
+
+class Status:
+    """The newest numbers of a running simulation, at most once a second."""
+
+    def __init__(self, folder: Path, end_time: float | None) -> None:
+        self.path = Path(folder) / "status.json"
+        self.end_time = end_time
+        self.record: dict = {"status": "running", "step": 0, "time": 0.0, "end_time": end_time}
+        self._begun = time.monotonic()
+        self._written = 0.0
+
+    def update(self, **numbers: object) -> None:
+        """Take new numbers; write them if the file is older than a second."""
+        self.record.update(numbers)
+        if time.monotonic() - self._written >= SECONDS_BETWEEN_STATUS:
+            self.write()
+
+    def write(self) -> None:
+        """Write the newest numbers."""
+        wall = time.monotonic() - self._begun
+        left = seconds_left(wall, self.record["time"], self.end_time)
+        write_json(self.path, {**self.record, "wall_time": wall, "eta": left, "written": now()})
+        self._written = time.monotonic()
+
+
+def seconds_left(wall: float, done: float, end: float | None) -> float | None:
+    """Return how long a run still takes if it goes on as before (s)."""
+    if end is None or done <= 0.0:
+        return None
+    return max(0.0, wall * (end - done) / done)
+
+
+def now() -> str:
+    """Return the moment as ISO 8601 in UTC."""
+    return datetime.now(UTC).isoformat(timespec="seconds")

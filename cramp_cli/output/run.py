@@ -1,0 +1,137 @@
+"""All files of one run behind one object, so that the loop over time knows no file."""
+
+import contextlib
+import traceback
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+
+from cramp_cli.output.exits import INTERNAL, exit_code, one_line
+from cramp_cli.output.fields import FrameWriter
+from cramp_cli.output.folder import RunFolder
+from cramp_cli.output.history import (
+    CRACK_COLUMNS,
+    GROWTH_COLUMNS,
+    HISTORY_COLUMNS,
+    CsvTable,
+    history_columns,
+    write_columns,
+)
+from cramp_cli.output.log import Log
+from cramp_cli.output.manifest import Manifest, Status
+from cramp_cli.output.summary import Summary
+
+SHOWN_OF_A_TIP = ("crack", "tip", "x", "y", "J", "K_I", "K_II", "status")
+
+
+class RunOutputs:
+    """Writes what a run finds out; a file comes into being with its first row or frame.
+
+    Used with ``with``: an exception that passes is recorded in manifest.json, and one that is a
+    fault of the program also in run.log.
+    """
+
+    def __init__(
+        self,
+        folder: RunFolder,
+        deck_text: str,
+        resolved_text: str,
+        *,
+        end_time: float | None = None,
+        threads: int = 1,
+        real: str = "f4",
+    ) -> None:
+        folder.begin(deck_text, resolved_text)
+        self.path = folder.path
+        self.log = Log(self.path / "run.log")
+        self._real = real
+        self._manifest = Manifest(self.path, deck_text, threads)
+        self._status = Status(self.path, end_time)
+        self._tables: dict[str, CsvTable] = {}
+        self._frames: dict[str, FrameWriter] = {}
+        write_columns(self.path, HISTORY_COLUMNS)
+        self._status.write()
+
+    def __enter__(self) -> "RunOutputs":
+        return self
+
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
+        if error is not None:
+            self.fail(error)
+        self.log.close()
+
+    def history(self, row: dict) -> None:
+        """Append one row to history.csv; its keys are those of HISTORY_COLUMNS and reactions."""
+        if "history" not in self._tables:
+            write_columns(self.path, history_columns(row))
+        self._table("history", history_columns(row)).write(row)
+        self._status.update(**{k: row[k] for k in ("step", "time", "energy_error") if k in row})
+
+    def tips(self, rows: Iterable[dict]) -> None:
+        """Append one row per tip to cracks.csv; keys as in CRACK_COLUMNS."""
+        rows = list(rows)
+        for row in rows:
+            self._table("cracks", CRACK_COLUMNS).write(row)
+        shown = [{name: row[name] for name in SHOWN_OF_A_TIP if name in row} for row in rows]
+        self._status.update(tips=shown)
+
+    def growth(self, rows: Iterable[dict]) -> None:
+        """Append one row per event to growth.csv; keys as in GROWTH_COLUMNS."""
+        for row in rows:
+            self._table("growth", GROWTH_COLUMNS).write(row)
+
+    def particle_frame(
+        self, step: int, time: float, points: np.ndarray, fields: dict[str, np.ndarray]
+    ) -> None:
+        """Add all particles at one moment: positions (n, 2 or 3) and named fields of them."""
+        self._writer("particles").write(step, time, points, fields)
+
+    def crack_frame(
+        self,
+        step: int,
+        time: float,
+        polylines: Sequence[np.ndarray],
+        fields: dict[str, np.ndarray] | None = None,
+    ) -> None:
+        """Add all cracks at one moment.
+
+        polylines: one array (n_points, 2 or 3) per crack
+        fields: values per point, all cracks one after the other; or one value per crack
+        """
+        offsets = np.cumsum([0, *map(len, polylines)])
+        points = np.concatenate(polylines) if len(polylines) else np.empty((0, 3))
+        fields = {"crack": np.arange(len(polylines))} | (fields or {})
+        self._writer("cracks").write(step, time, points, fields, offsets)
+
+    def finish(self, summary: Summary) -> None:
+        """Record that the run came to its end, with its last numbers."""
+        self._status.record |= {"step": summary.steps, "time": summary.time}
+        self._status.record["status"] = "done"
+        self._status.write()
+        self._manifest.finish(summary._asdict())
+
+    def fail(self, error: BaseException) -> None:
+        """Record that the run ended early; nothing here may hide the error itself."""
+        with contextlib.suppress(OSError):
+            self.log.write("error", _account(error))
+            self._manifest.fail(error)
+            self._status.record["status"] = self._manifest.record["status"]
+            self._status.write()
+        error.add_note(f"see {self.path / 'run.log'}")
+
+    def _table(self, name: str, columns: Iterable[str]) -> CsvTable:
+        if name not in self._tables:
+            self._tables[name] = CsvTable(self.path / f"{name}.csv", columns)
+        return self._tables[name]
+
+    def _writer(self, kind: str) -> FrameWriter:
+        if kind not in self._frames:
+            self._frames[kind] = FrameWriter(self.path, kind, self._real)
+        return self._frames[kind]
+
+
+def _account(error: BaseException) -> str:
+    """Return the traceback of a fault of the program, one line about any other end."""
+    if exit_code(error) == INTERNAL:
+        return "".join(traceback.format_exception(error)).rstrip()
+    return one_line(error)

@@ -1,0 +1,55 @@
+"""The outcome of a run in a few numbers, and the page that shows it."""
+
+import io
+from typing import NamedTuple
+
+from cramp_cli.output.tables import WIDTH, duration, number
+
+
+class Summary(NamedTuple):
+    """What is said when a run is done; also kept in manifest.json."""
+
+    steps: int
+    time: float  # s
+    wall_time: float  # s
+    tips: list[dict]  # crack, tip, x, y (m), J (J/m^2), K_I, K_II (Pa m^0.5), status
+    energy_error: float | None = None  # share of the largest energy
+    particle_steps_per_second: float | None = None
+
+
+def summary_text(summary: Summary) -> str:
+    """Return the table of the tips and the numbers that judge the run."""
+    rate, error = summary.particle_steps_per_second, summary.energy_error
+    facts = {
+        "energy error": "" if error is None else f"{100.0 * error:.3g} %",
+        "wall time": f"{duration(summary.wall_time)} for {summary.steps} steps",
+        "speed": "" if rate is None else f"{rate:.3g} particle-steps/s",
+    }
+    lines = [f"{name:13} {text}" for name, text in facts.items() if text]
+    return "\n".join([tips_text(summary.tips), *lines] if summary.tips else lines)
+
+
+def tips_text(tips: list[dict]) -> str:
+    """Return a table with one line per crack tip."""
+    from rich.console import Console  # late: keeps `cramp --help` fast
+
+    page = io.StringIO()
+    console = Console(file=page, width=WIDTH, no_color=True, force_terminal=False, markup=False)
+    console.print(_table(tips))
+    return "\n".join(line.rstrip() for line in page.getvalue().splitlines())
+
+
+def _table(tips: list[dict]):
+    from rich import box
+    from rich.table import Table
+
+    table = Table(box=box.ASCII2, show_edge=False, show_header=True)
+    table.add_column("tip", overflow="fold", max_width=16)
+    for heading in ("x\nm", "y\nm", "J\nJ/m^2", "K_I\nPa*m^0.5", "K_II\nPa*m^0.5"):
+        table.add_column(heading, justify="right", no_wrap=True)
+    table.add_column("status", overflow="fold")
+    for tip in tips:
+        numbers = (number(tip.get(name)) for name in ("x", "y", "J", "K_I", "K_II"))
+        name = f"{tip.get('crack', '')} {tip.get('tip', '')}".strip()
+        table.add_row(name, *numbers, str(tip.get("status", "")))
+    return table

@@ -1,0 +1,1 @@
+"""The grammar of a deck: units, sections, curves in time."""

@@ -1,0 +1,134 @@
+"""Functions of time as data: what a load or a prescribed velocity is multiplied by."""
+
+from bisect import bisect_right
+from collections.abc import Iterator
+from math import pi, radians, sin
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, Field
+
+from cramp_cli.schema.section import Section, Wrong, one_of, unknown
+from cramp_cli.schema.units import Angle, Frequency, Number, Time, complaint
+
+
+class Constant(Section):
+    """1 at all times."""
+
+    type: Literal["constant"] = Field("constant", description="kind of curve")
+
+    def value(self, t: float) -> float:
+        """Return the factor at time t (s)."""
+        return 1.0
+
+
+class Step(Section):
+    """Full from time 0, the same as `constant`."""
+
+    type: Literal["step"] = Field("step", description="kind of curve")
+
+    def value(self, t: float) -> float:
+        """Return the factor at time t (s)."""
+        return 1.0
+
+
+class Ramp(Section):
+    """0 until `start`, then a straight line to 1 at `until`, then 1."""
+
+    type: Literal["ramp"] = Field("ramp", description="kind of curve")
+    until: Time = Field(description="time at which the factor is 1")
+    start: Time = Field(0.0, description="time at which it leaves 0")
+
+    def wrong_values(self) -> Iterator[Wrong]:
+        """The ramp needs time to rise."""
+        if self.until <= self.start:
+            yield ("until",), f"must be later than start (got {self.until:g} s, {self.start:g} s)"
+
+    def value(self, t: float) -> float:
+        """Return the factor at time t (s)."""
+        return min(max((t - self.start) / (self.until - self.start), 0.0), 1.0)
+
+
+class Table(Section):
+    """Straight lines between points in time; the ends are held."""
+
+    type: Literal["table"] = Field("table", description="kind of curve")
+    time: tuple[Time, ...] = Field(min_length=1, description="times, increasing")
+    value_at: tuple[Number, ...] = Field(
+        alias="value", min_length=1, description="the factor at each time"
+    )
+
+    def wrong_values(self) -> Iterator[Wrong]:
+        """Each time has a value, and times increase."""
+        if len(self.time) != len(self.value_at):
+            counts = f"{len(self.value_at)} values, {len(self.time)} times"
+            yield ("value",), f"must have one value for each time (got {counts})"
+        for place, (before, after) in enumerate(zip(self.time, self.time[1:], strict=False)):
+            if after <= before:
+                message = f"times must increase (got {after:g} s after {before:g} s)"
+                yield ("time", place + 1), message
+
+    def value(self, t: float) -> float:
+        """Return the factor at time t (s)."""
+        after = bisect_right(self.time, t)
+        if after in (0, len(self.time)):
+            return self.value_at[-1 if after else 0]
+        t0, t1 = self.time[after - 1], self.time[after]
+        v0, v1 = self.value_at[after - 1], self.value_at[after]
+        return v0 + (v1 - v0) * (t - t0) / (t1 - t0)
+
+
+class Sine(Section):
+    """0 before `start`, then sin(2 pi frequency (t - start) + phase), for a number of cycles."""
+
+    type: Literal["sine"] = Field("sine", description="kind of curve")
+    frequency: Frequency = Field(gt=0, description="cycles per second")
+    phase: Angle = Field(0.0, description="phase at `start`")
+    start: Time = Field(0.0, description="time of the first cycle's begin")
+    cycles: Number | None = Field(
+        None, gt=0, description="number of cycles, then 0; without end if not given"
+    )
+
+    def value(self, t: float) -> float:
+        """Return the factor at time t (s)."""
+        turns = self.frequency * (t - self.start)
+        if turns < 0.0 or (self.cycles is not None and turns > self.cycles):
+            return 0.0
+        return sin(2.0 * pi * turns + radians(self.phase))
+
+
+class Pulse(Section):
+    """0, except for one pulse of height 1."""
+
+    type: Literal["pulse"] = Field("pulse", description="kind of curve")
+    duration: Time = Field(gt=0, description="length of the pulse")
+    start: Time = Field(0.0, description="begin of the pulse")
+    shape: Literal["square", "half_sine", "triangle"] = Field("square", description="its form")
+
+    def value(self, t: float) -> float:
+        """Return the factor at time t (s)."""
+        share = (t - self.start) / self.duration
+        if not 0.0 <= share < 1.0:
+            return 0.0
+        if self.shape == "half_sine":
+            return sin(pi * share)
+        return 1.0 if self.shape == "square" else 1.0 - abs(2.0 * share - 1.0)
+
+
+KINDS = {
+    kind.model_fields["type"].default: kind for kind in (Constant, Step, Ramp, Table, Sine, Pulse)
+}
+WORDS = ("constant", "step")  # kinds that need no more than their name
+
+
+def _long_form(data: Any) -> Any:
+    """Turn the word `step` into {type: step}."""
+    if not isinstance(data, str):
+        return data
+    if data in WORDS:
+        return {"type": data}
+    if data in KINDS:
+        raise complaint(f"'{data}' needs more keys: write {{type: {data}, ...}}")
+    raise complaint(unknown("curve", data, KINDS))
+
+
+Curve = Annotated[one_of("type", *KINDS.values()), BeforeValidator(_long_form)]

@@ -1,0 +1,135 @@
+"""What a shape function answers.
+
+All are products of functions of one axis. A particle sees `support` nodes along each axis, starting
+at `first_node`; S_ip is the product of the axis values, its gradient has one of them replaced by the
+slope (algorithm: Bardenhagen and Kober 2004).
+"""
+
+from cramp_cli.numerics.dispatch import by_length, generic
+from cramp_cli.numerics.kernel import kernel
+from cramp_cli.numerics.tensor import outer, outer_sum
+
+
+@generic
+def first_node(shape, axis, x):
+    """Return the number of the first node along `axis` that a particle at `x` (in cells) sees."""
+
+
+@generic
+def along_axis(shape, axis, r):
+    """Return the values and the slopes (per cell) at the nodes of an axis, two tuples.
+
+    r: distance of the particle from its first node, in cells
+    """
+
+
+@generic
+def node_steps(shape, stride):
+    """Return the steps in node number from the first node to every node of an axis."""
+
+
+@generic
+def support(shape):
+    """Return how many nodes a particle sees along an axis."""
+
+
+@by_length
+def weights(local, shape):
+    """Return S_ip at all nodes of the particle, x running fastest."""
+
+
+@weights.implement(2)
+def _(local, shape):
+    return outer(along_axis(shape, 1, local[1])[0], along_axis(shape, 0, local[0])[0])
+
+
+@weights.implement(3)
+def _(local, shape):
+    x, y = along_axis(shape, 0, local[0])[0], along_axis(shape, 1, local[1])[0]
+    return outer(along_axis(shape, 2, local[2])[0], outer(y, x))
+
+
+@by_length
+def gradients(local, shape):
+    """Return the gradient of S_ip times the cell width: one flat tuple per axis."""
+
+
+@gradients.implement(2)
+def _(local, shape):
+    x, dx = along_axis(shape, 0, local[0])
+    y, dy = along_axis(shape, 1, local[1])
+    return outer(y, dx), outer(dy, x)
+
+
+@gradients.implement(3)
+def _(local, shape):
+    x, dx = along_axis(shape, 0, local[0])
+    y, dy = along_axis(shape, 1, local[1])
+    z, dz = along_axis(shape, 2, local[2])
+    return outer(z, outer(y, dx)), outer(z, outer(dy, x)), outer(dz, outer(y, x))
+
+
+@by_length
+def hats(like, r):
+    """Return the linear functions max(0, 1 - |r - k|) of nodes k = 0, 1, ... as long as `like`."""
+    return (max(0.0, 1.0 - abs(r)),) + hats(like[1:], r - 1.0)
+
+
+@hats.implement(1)
+def _(like, r):
+    return (max(0.0, 1.0 - abs(r)),)
+
+
+@by_length
+def point_weights(local, shape):
+    """Return the linear functions of a point at the nodes of the particle that holds it."""
+
+
+@point_weights.implement(2)
+def _(local, shape):
+    return outer(hats(node_steps(shape, 1), local[1]), hats(node_steps(shape, 1), local[0]))
+
+
+@point_weights.implement(3)
+def _(local, shape):
+    x, y = hats(node_steps(shape, 1), local[0]), hats(node_steps(shape, 1), local[1])
+    return outer(hats(node_steps(shape, 1), local[2]), outer(y, x))
+
+
+@by_length
+def offsets(strides, shape):
+    """Return the steps in node number from the base node to all nodes of a particle."""
+
+
+@offsets.implement(2)
+def _(strides, shape):
+    return outer_sum(node_steps(shape, strides[1]), node_steps(shape, strides[0]))
+
+
+@offsets.implement(3)
+def _(strides, shape):
+    plane = outer_sum(node_steps(shape, strides[1]), node_steps(shape, strides[0]))
+    return outer_sum(node_steps(shape, strides[2]), plane)
+
+
+@kernel
+def locate(stencil, position, shape, lower, strides, nodes, width, lo, hi):
+    """Find the nodes that particles lo..hi see: their base node and the place from it.
+
+    nodes: number of grid nodes along each axis
+    returns: the first particle that sees nodes outside the grid (or has no position), or -1
+    """
+    base, local = stencil.base, stencil.local
+    for p in range(lo, hi):
+        node = 0
+        for d in range(len(lower)):
+            x = (position[p, d] - lower[d]) / width
+            if not 0.0 <= x <= nodes[d]:
+                return p
+            first = first_node(shape, d, x)
+            if first < 0 or first + support(shape) > nodes[d]:
+                return p
+            local[p, d] = x - first
+            node += first * strides[d]
+        base[p] = node
+    return -1

@@ -1,0 +1,235 @@
+"""The loop over time: step, and whatever is due after it."""
+
+from collections import defaultdict
+from contextlib import contextmanager
+from time import perf_counter
+
+import numpy as np
+
+from cramp_cli.cracks.fields import find_rows, make_scratch
+from cramp_cli.cracks.tips import sample_tips
+from cramp_cli.output.summary import Summary
+from cramp_cli.state.failure import NumericalFailure
+from cramp_cli.state.health import check_health
+from cramp_cli.state.measures import FIELDS, momentum, sum_energies
+from cramp_cli.step import step
+from cramp_cli.transfer.sums import locate_particles
+
+HEALTH_EVERY = 20  # steps
+ENERGY_WARNING, ENERGY_STOP = 0.01, 0.10
+SETTLED = 50  # steps after which the energy balance is judged: the first loads act on a body at rest
+
+
+class Due:
+    """Says at which steps something happens that is wanted every so many seconds."""
+
+    def __init__(self, every: float, dt: float):
+        self.every, self.slack, self.count = every, 1e-9 * dt, 0
+
+    def __call__(self, time: float) -> bool:
+        """Return True at the first step at or after the next multiple of `every`."""
+        if time < self.count * self.every - self.slack:
+            return False
+        self.count = int((time + self.slack) / self.every) + 1
+        return True
+
+
+class Stopwatch:
+    """Times the paragraphs of a step."""
+
+    def __init__(self):
+        self.seconds = defaultdict(float)
+
+    @contextmanager
+    def __call__(self, title: str):
+        """Add the time spent inside to the title."""
+        begin = perf_counter()
+        yield
+        self.seconds[title] += perf_counter() - begin
+
+    def table(self) -> str:
+        """Return titles with seconds and shares, the way of a step from top to bottom."""
+        total = sum(self.seconds.values()) or 1.0
+        rows = (f"{t:50} {s:9.3f} s {100 * s / total:5.1f} %" for t, s in self.seconds.items())
+        return "\n".join(rows)
+
+
+class Books:
+    """Keeps the energy balance and judges it."""
+
+    def __init__(self, state):
+        self.start = sum(sum_energies(state.particles))
+        self.largest = 0.0
+        self.error = 0.0
+        self.warned = False
+
+    def row(self, state, dt) -> dict:
+        """Return the energies of a row of history.csv and keep the balance."""
+        kinetic, stored = sum_energies(state.particles)
+        books = state.books
+        damping, friction = float(books.damping[0]), float(books.friction[0])
+        work = float(books.external[0])
+        spent = kinetic + stored + friction + damping
+        self.largest = max(self.largest, kinetic + stored, abs(work), friction + damping)
+        self.error = (spent - self.start - work) / self.largest if self.largest else 0.0
+        total = momentum(state.particles)
+        return {
+            "step": state.step,
+            "time": state.time,
+            "dt": dt,
+            "kinetic_energy": kinetic,
+            "strain_energy": stored,
+            "fracture_energy": 0.0,
+            "friction_energy": friction,
+            "plastic_energy": 0.0,
+            "damping_energy": damping,
+            "external_work": work,
+            "energy_error": self.error,
+            "momentum_x": float(total[0]),
+            "momentum_y": float(total[1]),
+        }
+
+    def judge(self, state, reporter) -> None:
+        """Warn once when the balance is off by more than a percent, stop at ten."""
+        if state.step < SETTLED:
+            return
+        if abs(self.error) > ENERGY_STOP:
+            raise NumericalFailure(
+                f"step {state.step}, t = {state.time:.6g} s: the energy balance is off by "
+                f"{100 * self.error:.3g} %.\nLower solver.cfl, use more particles per cell or a finer "
+                "grid; look at energy_error in history.csv for when it began."
+            )
+        if abs(self.error) > ENERGY_WARNING and not self.warned:
+            self.warned = True
+            reporter.message(
+                "warning",
+                f"energy balance off by {100 * self.error:.3g} % at t = {state.time:.4g} s (step {state.step})",
+            )
+
+
+def simulate(deck, model, state, outputs, reporter, *, profile=False) -> Summary:
+    """Run a model to its end and write what the deck asks for.
+
+    outputs: where rows and frames go; reporter: who is told how it goes
+    returns: the outcome in a few numbers
+    """
+    run = _Run(deck, model, state, outputs, reporter)
+    begin = perf_counter()
+    reporter.start(model.end_time, deck.title or "run", _facts(model, state))
+    run.after_step()
+    while state.time < model.end_time - 1e-9 * model.dt:
+        step(model, state, run.scratch, run.watch)
+        run.after_step()
+        reporter.progress(state.step, state.time, perf_counter() - begin, run.headline())
+    run.last()
+    wall = perf_counter() - begin
+    if profile:
+        reporter.message("info", run.watch.table())
+    work = state.step * len(state.particles.mass)
+    return Summary(state.step, state.time, wall, run.tips, run.books.error, work / wall if wall else None)
+
+
+class _Run:
+    """What is due after a step."""
+
+    def __init__(self, deck, model, state, outputs, reporter):
+        self.deck, self.model, self.state = deck, model, state
+        self.outputs, self.reporter = outputs, reporter
+        self.scratch, self.watch, self.books = make_scratch(model, state), Stopwatch(), Books(state)
+        self.history_due = Due(deck.output.history_every, model.dt)
+        self.tips_due = Due(deck.fracture.every, model.dt)
+        self.frame_due = Due(deck.output.every, model.dt)
+        self.tips, self.written = [], set()
+        self.told = set()
+        locate_particles(model, state, self.scratch)
+        find_rows(model, state, self.scratch)
+
+    def after_step(self) -> None:
+        """Look after the solution and write what is due."""
+        if self.state.step % HEALTH_EVERY == 0:
+            check_health(self.model, self.state)
+            self._tell_strange_rows()
+        self._write(self.history_due, self.tips_due, self.frame_due)
+
+    def last(self) -> None:
+        """Write the end of the run."""
+        check_health(self.model, self.state)
+        self._write(*(lambda time: True,) * 3)
+
+    def headline(self) -> dict:
+        """Return the numbers worth a look while it runs."""
+        if not self.tips:
+            return {"energy_error": self.books.error}
+        return {name: self.tips[0][name] for name in ("J", "K_I", "K_II")}
+
+    def _write(self, history_due, tips_due, frame_due) -> None:
+        time = self.state.time
+        if history_due(time) and self._first("history"):
+            self.outputs.history(self.books.row(self.state, self.model.dt) | self._reactions())
+            self.books.judge(self.state, self.reporter)
+        if self.model.crack_names and tips_due(time) and self._first("tips"):
+            self.tips = sample_tips(self.model, self.state, self.scratch)
+            self.outputs.tips(self.tips)
+        if frame_due(time) and self._first("frame"):
+            self._frame()
+
+    def _first(self, what) -> bool:
+        """Return True once per step."""
+        key = (what, self.state.step)
+        if key in self.written:
+            return False
+        self.written = {k for k in self.written if k[1] == self.state.step} | {key}
+        return True
+
+    def _reactions(self) -> dict:
+        names = self.model.conditions.names
+        return {
+            f"reaction_{name}_{axis}": float(self.state.reactions[b, d])
+            for b, name in enumerate(names)
+            for d, axis in enumerate("xy")
+        }
+
+    def _frame(self) -> None:
+        state, output = self.state, self.deck.output
+        if output.particles:
+            order = np.argsort(state.particles.id)
+            fields = {name: FIELDS[name](state.particles)[order] for name in output.fields}
+            fields["body"] = state.particles.body[order]
+            position = state.particles.position[order]
+            self.outputs.particle_frame(state.step, state.time, position, fields)
+        if self.model.crack_names:
+            paths = state.paths
+            lines = [paths.point[paths.crack(c)] for c in range(paths.crack_count)]
+            opening = paths.above - paths.below
+            self.outputs.crack_frame(state.step, state.time, lines, {"opening": opening})
+
+    def _tell_strange_rows(self) -> None:
+        """Say once when pairs of particle and node could not be told apart by the cracks."""
+        wrong, crowded = (int(n) for n in self.scratch.rows.count[2:])
+        if wrong:
+            self._tell("wrong side", f"{wrong} particle-node pairs see a crack from its wrong side")
+        if crowded:
+            self._tell("crowded", f"{crowded} particle-node pairs cross more than two cracks")
+
+    def _tell(self, what, text) -> None:
+        if what not in self.told:
+            self.told.add(what)
+            advice = "a finer grid near the cracks would help"
+            self.reporter.message("warning", f"step {self.state.step}: {text}; {advice}")
+
+
+def _facts(model, state) -> dict:
+    """Return what a user may want to check before the run."""
+    return {
+        "cells": " x ".join(str(n) for n in model.lattice.cells) + f" of {model.lattice.width:.4g} m",
+        "particles": len(state.particles.mass),
+        "cracks": f"{state.paths.crack_count} with {len(state.paths.point)} points",
+        "time step": f"{model.dt:.6g} s, {int(np.ceil(model.end_time / model.dt))} steps",
+    }
+
+
+def warm_up() -> None:
+    """Compile all kernels for the usual kinds of runs."""
+    from cramp_cli.warm import run_small_cases
+
+    run_small_cases()

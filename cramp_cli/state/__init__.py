@@ -1,0 +1,1 @@
+"""Named arrays without behaviour: particles, grid, cracks."""

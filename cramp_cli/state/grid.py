@@ -1,0 +1,65 @@
+"""The scratch paper: sums over particles, in rows.
+
+Row i below the number of nodes is velocity field 0 of node i, the side on which the node itself
+lies. Further rows exist only at nodes near cracks, one for every side that particles on the far side
+of a crack belong to (Nairn 2003: each node has multiple velocity fields).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+
+class Grid(NamedTuple):
+    """Sums per row; a row without particles has mass 0."""
+
+    mass: np.ndarray  # (rows,) kg
+    momentum: np.ndarray  # (rows, dim) kg m/s
+    saved: np.ndarray  # (rows, dim) momentum before the boundary conditions of the first strain update
+    force: np.ndarray  # (rows, dim) N
+    velocity: np.ndarray  # (rows, dim) m/s
+    acceleration: np.ndarray  # (rows, dim) m/s^2
+
+
+class Rows(NamedTuple):
+    """Which rows a node has beyond its own, and what lies between them.
+
+    A row is told by the cracks that the lines from its particles to its node cross: none (the node's
+    own row), one, or two. Arrays over extra rows start at row number `nodes`.
+    """
+
+    count: np.ndarray  # (4,) extra rows in use, nodes with extra rows, wrong-side pairs, third cracks
+    first: np.ndarray  # (nodes,) first extra row of a node, or -1
+    next: np.ndarray  # (extra,) next extra row of the same node, or -1; ascending in `crack`
+    node: np.ndarray  # (extra,) node of an extra row
+    shared: np.ndarray  # (extra,) nodes that have extra rows
+    crack: np.ndarray  # (extra, 2) cracks crossed, ascending, -1 for none
+    side: np.ndarray  # (extra, 2) side of the row's particles: +1 above, -1 below the crack
+    normal: np.ndarray  # (extra, 2, dim) sum of crossed segments turned from above to below, m
+    touching: np.ndarray  # (extra, 2) what a row does with the row across each crack: open, slide, stick
+    displacement: np.ndarray  # (rows, dim) mass-weighted displacement at shared nodes, kg m
+    place: np.ndarray  # (rows, dim) mass-weighted position at shared nodes, kg m
+
+
+def make_grid(node_count: int, dim: int, extra: int) -> tuple[Grid, Rows]:
+    """Return empty arrays for `node_count` nodes and at most `extra` further rows."""
+    rows = node_count + extra
+
+    def vectors() -> np.ndarray:
+        return np.zeros((rows, dim))
+
+    grid = Grid(np.zeros(rows), vectors(), vectors(), vectors(), vectors(), vectors())
+    fields = Rows(
+        count=np.zeros(4, dtype=np.int64),
+        first=np.full(node_count, -1, dtype=np.int64),
+        next=np.full(extra, -1, dtype=np.int64),
+        node=np.zeros(extra, dtype=np.int64),
+        shared=np.zeros(extra, dtype=np.int64),
+        crack=np.full((extra, 2), -1, dtype=np.int64),
+        side=np.zeros((extra, 2), dtype=np.int64),
+        normal=np.zeros((extra, 2, dim)),
+        touching=np.zeros((extra, 2), dtype=np.int64),
+        displacement=vectors(),
+        place=vectors(),
+    )
+    return grid, fields

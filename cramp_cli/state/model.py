@@ -1,0 +1,105 @@
+"""A run: what stays (Model), what a checkpoint holds (State), and scratch paper (Scratch)."""
+
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from cramp_cli.state.grid import Grid, Rows
+from cramp_cli.state.lattice import Lattice
+from cramp_cli.state.particles import Particles
+from cramp_cli.state.paths import Paths
+from cramp_cli.state.stencil import Stencil
+
+
+class Block(NamedTuple):
+    """Particles lo..hi of one material and one size."""
+
+    lo: int
+    hi: int
+    law: Any  # record of the constitutive law
+    shape: Any  # record of the shape function with the half size of these particles
+    material: str  # name in the deck
+    density: float  # kg/m^3
+
+
+class Scheme(NamedTuple):
+    """When strains are updated: shares of the step before the forces and after the motion."""
+
+    before: float  # USF 1, USAVG 1/2, USL 0
+    after: float  # USF 0, USAVG 1/2, USL 1
+    again: bool  # extrapolate the moved particles a second time ("plus")
+
+
+SCHEMES = {
+    "usf": Scheme(1.0, 0.0, again=False),
+    "usl-": Scheme(0.0, 1.0, again=False),
+    "usl+": Scheme(0.0, 1.0, again=True),
+    "usavg-": Scheme(0.5, 0.5, again=False),
+    "usavg+": Scheme(0.5, 0.5, again=True),
+}
+
+
+class Books(NamedTuple):
+    """Energies that have passed the border of the solid so far; arrays of one number (J)."""
+
+    external: np.ndarray  # work of loads and moving boundaries
+    damping: np.ndarray  # taken by damping
+    friction: np.ndarray  # work of friction on crack faces
+
+
+@dataclass(frozen=True)
+class Model:
+    """What a deck says, in numbers; nothing here changes during a run."""
+
+    lattice: Lattice
+    geometry: Any  # plane strain, plane stress
+    blocks: tuple  # of Block
+    update: Any  # FLIP, FMPM, XPIC
+    scheme: Scheme
+    damping: tuple  # grid, particle (1/s)
+    dt: float  # s
+    end_time: float  # s
+    crack_names: tuple
+    contact: Any  # ContactLaws
+    conditions: Any  # boundary conditions and loads
+    fracture: Any = None  # how J and K are evaluated
+    strides: tuple = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Keep the strides at hand: every kernel wants them."""
+        object.__setattr__(self, "strides", self.lattice.strides)
+
+
+@dataclass
+class State:
+    """Exactly what a checkpoint holds."""
+
+    time: float
+    step: int
+    particles: Particles
+    paths: Paths
+    books: Books
+    reactions: np.ndarray  # (named boundaries, dim) of the last step (N)
+
+
+@dataclass
+class Scratch:
+    """Arrays of a step that nobody needs after it."""
+
+    grid: Grid
+    rows: Rows
+    stencil: Stencil
+    segments: Any
+    held: list = field(default_factory=list)  # rows held by each velocity condition, and their number
+    free: list = field(default_factory=list)  # nodes of each symmetry plane that lie on its crack
+
+    @property
+    def row_count(self) -> int:
+        """Rows in use: nodes and extra rows."""
+        return len(self.rows.first) + int(self.rows.count[0])
+
+
+def no_energy() -> Books:
+    """Return books in which nothing is written."""
+    return Books(np.zeros(1), np.zeros(1), np.zeros(1))

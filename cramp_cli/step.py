@@ -1,0 +1,89 @@
+"""The way of one time step (Nairn 2003, section 3; Sulsky, Chen, Schreyer 1994).
+
+Read from top to bottom; docs/theory/step.md has a paragraph for each title. What a line does, in which
+rows, is in the module it comes from.
+"""
+
+from cramp_cli.boundary.conditions import (
+    add_loads,
+    book_tractions,
+    hold_after_contact,
+    hold_forces,
+    hold_momenta,
+    meet_rows,
+    reflect_forces,
+    reflect_mass_and_momentum,
+    reflect_sum,
+    repeat_images,
+)
+from cramp_cli.cracks.contact import FIRST, LAST, UPDATE, touch
+from cramp_cli.cracks.fields import find_openings, find_rows, move_paths
+from cramp_cli.grid_velocity import find_strain_velocity, find_update_velocity
+from cramp_cli.transfer import sums
+from cramp_cli.transfer.on_grid import advance_momentum, find_acceleration, find_velocity
+
+
+def step(model, state, scratch, watch) -> None:
+    """Advance `state` by one time step; `watch(title)` times the paragraphs."""
+    dt, time, conditions, laws = model.dt, state.time, model.conditions, model.contact
+
+    with watch("1 where the particles are"):
+        sums.locate_particles(model, state, scratch)
+
+    with watch("2 on which side of the cracks"):
+        find_rows(model, state, scratch)
+        find_openings(model, state, scratch)
+    grid, rows, count = scratch.grid, scratch.rows, scratch.row_count
+    state.reactions[:] = 0.0
+
+    with watch("3 mass and momentum to the grid"):
+        sums.sum_mass_and_momentum(model, state, scratch)
+        meet_rows(conditions, scratch, model.lattice.width)
+        reflect_mass_and_momentum(conditions, scratch)
+        grid.saved[:count] = grid.momentum[:count]
+        touch(grid, rows, laws, model.strides, dt, FIRST)
+        repeat_images(conditions, scratch, grid.momentum, grid.saved)
+
+    with watch("4 strain before the forces"):  # all of the step in USF, half in USAVG, none in USL
+        if model.scheme.before:
+            hold_momenta(conditions, scratch, time)
+            find_strain_velocity(model, state, scratch)
+            sums.strain(model, state, scratch, model.scheme.before, fresh=True)
+        grid.momentum[:count] = grid.saved[:count]
+
+    with watch("5 forces"):
+        sums.sum_internal_force(model, state, scratch)
+        add_loads(model, scratch, time)
+        reflect_forces(conditions, scratch, state)
+
+    with watch("6 equation of motion in every velocity field"):
+        hold_forces(conditions, scratch, state, time, dt)
+        advance_momentum(grid, count, dt)
+        state.books.friction[0] += touch(grid, rows, laws, model.strides, dt, UPDATE)
+        repeat_images(conditions, scratch, grid.momentum, grid.force)
+        hold_after_contact(conditions, scratch, state, time, dt)
+        find_acceleration(grid, count)
+
+    with watch("7 particles move"):
+        find_update_velocity(model, state, scratch)
+        sums.move(model, state, scratch)
+
+    with watch("8 cracks move"):
+        find_velocity(grid, count)
+        book_tractions(model, scratch, state, time, dt)
+        move_paths(model, state, scratch)
+
+    with watch("9 strain after the motion"):  # none of the step in USF, half in USAVG, all in USL
+        if model.scheme.again:
+            find_openings(model, state, scratch)
+            sums.sum_momentum_again(model, state, scratch)
+            reflect_sum(conditions, scratch, grid.momentum)
+            touch(grid, rows, laws, model.strides, dt, LAST)
+            repeat_images(conditions, scratch, grid.momentum)
+            hold_momenta(conditions, scratch, time)
+        if model.scheme.after:
+            find_strain_velocity(model, state, scratch)
+            sums.strain(model, state, scratch, model.scheme.after, fresh=not model.scheme.before)
+
+    state.time += dt
+    state.step += 1

@@ -1,0 +1,90 @@
+"""From the grid to the particles: motion, strain and stress."""
+
+from cramp_cli.materials.geometry import strained
+from cramp_cli.numerics.kernel import kernel
+from cramp_cli.numerics.tensor import (
+    add_outer,
+    dot,
+    increment,
+    matrix,
+    pick,
+    plus,
+    product,
+    scaled,
+    times,
+    turn,
+    vector,
+    work_of,
+    zero_matrix,
+)
+from cramp_cli.shapes.shape import gradients, offsets, weights
+from cramp_cli.transfer.update import moved
+
+
+@kernel
+def move_particles(particles, grid, stencil, update, shape, strides, damping, dt, lo, hi):
+    """Move particles lo..hi and change their velocity.
+
+    damping: (grid, particle), 1/s
+    returns: energy taken by the damping (J)
+    """
+    x, v, a = particles.position, particles.velocity, particles.acceleration
+    m = particles.mass
+    velocity, acceleration = grid.velocity, grid.acceleration
+    base, local, near, table = stencil.base, stencil.local, stencil.near, stencil.table
+    steps = offsets(strides, shape)
+    damped = 0.0
+    for p in range(lo, hi):
+        S = weights(vector(strides, local, p), shape)
+        line = near[p]
+        u = times(vector(strides, v, p), 0.0)
+        Sa = u
+        for k in range(len(steps)):
+            row = base[p] + steps[k] if line < 0 else table[line, k]
+            u = plus(u, S[k], vector(strides, velocity, row))
+            Sa = plus(Sa, S[k], vector(strides, acceleration, row))
+        V = vector(strides, v, p)
+        new, mean = moved(update, V, u, Sa, damping[0], damping[1], dt)
+        free, _ = moved(update, V, u, Sa, 0.0, 0.0, dt)
+        damped += 0.5 * m[p] * dot(plus(free, -1.0, new), plus(V, 1.0, new))
+        for d in range(len(strides)):
+            v[p, d] = new[d]
+            x[p, d] += dt * mean[d]
+            a[p, d] = Sa[d]
+    return damped
+
+
+@kernel
+def update_stress(
+    particles, grid, stencil, law, geometry, shape, strides, width, dt, share, fresh, lo, hi
+):
+    """Strain particles lo..hi for share * dt with the velocities of the grid and update their stress.
+
+    fresh: the first strain update of the step; L becomes the average over the updates of the step
+    """
+    F, stretch, L = particles.F, particles.stretch, particles.L
+    stress, work = particles.stress, particles.work
+    velocity = grid.velocity
+    base, local, near, table = stencil.base, stencil.local, stencil.near, stencil.table
+    steps = offsets(strides, shape)
+    zero = zero_matrix(strides)
+    for p in range(lo, hi):
+        G = gradients(vector(strides, local, p), shape)
+        line = near[p]
+        gradient = zero
+        for k in range(len(steps)):
+            row = base[p] + steps[k] if line < 0 else table[line, k]
+            gradient = add_outer(vector(strides, velocity, row), pick(G, k), gradient)
+        gradient = scaled(gradient, 1.0 / width)
+        dU = scaled(gradient, share * dt)
+        turned = turn(dU, stress, p)
+        strain, new = strained(geometry, law, turned, dU)
+        work[p] += work_of(turned, new, strain)
+        stretch[p] *= 1.0 + strain[2] + 0.5 * strain[2] * strain[2]
+        for c in range(stress.shape[1]):
+            stress[p, c] = new[c]
+        step = increment(dU)
+        after = product(step, matrix(dU, F, p))
+        for c in range(len(dU)):
+            F[p, c] = after[c]
+            L[p, c] = share * gradient[c] + (0.0 if fresh else L[p, c])

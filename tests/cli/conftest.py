@@ -1,0 +1,81 @@
+"""Decks and a stand-in for the solver, for tests of what surrounds it."""
+
+import sys
+from types import ModuleType, SimpleNamespace
+
+import numpy as np
+import pytest
+
+from cramp_cli.__main__ import main
+from cramp_cli.output.summary import Summary
+
+PLATE = """\
+cramp: 1
+title: Plate with an edge crack, pulled
+analysis: plane_strain
+grid: {lower: [-10 mm, -30 mm], upper: [50 mm, 30 mm], cell: 2 mm}
+materials:
+  glass: {law: elastic, density: 2500 kg/m^3, E: 70 GPa, nu: 0.2}
+bodies:
+  - {name: plate, material: glass, shape: {type: rectangle, lower: [0, -20 mm], upper: [40 mm, 20 mm]}}
+cracks:
+  - {name: notch, points: [[0, 0], [15.3 mm, 0]], start: edge, end: tip}
+boundary:
+  - {name: grip, where: {y: -20 mm}, fix: [y]}
+loads:
+  - {type: force, body: plate, where: {y: 20 mm}, total: [0, 10 kN], in_time: step}
+solver: {end_time: 20 us}
+output: {every: 5 us, fields: [stress, displacement]}
+"""
+TIP = {"crack": "notch", "tip": "end", "x": 0.0153, "y": 0.0, "J": 1.5, "K_I": 3e5, "K_II": 0.0}
+
+
+@pytest.fixture
+def here(tmp_path, monkeypatch):
+    """A working folder that holds plate.yaml."""
+    (tmp_path / "plate.yaml").write_text(PLATE, encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.fixture
+def cramp(here, capsys):
+    """Obey a command line: exit code, stdout, stderr."""
+
+    def obey(*words):
+        code = main([str(word) for word in words])
+        said = capsys.readouterr()
+        return code, said.out, said.err
+
+    return obey
+
+
+@pytest.fixture
+def solver(monkeypatch):
+    """A solver that takes no time; set `error` and it ends with that error."""
+    stub = SimpleNamespace(error=None, built=0, needs={"memory_bytes": 1000, "disk_bytes": 1000})
+
+    def build(deck):
+        stub.built += 1
+        return "model", "state"
+
+    def simulate(deck, model, state, outputs, reporter, profile=False):
+        reporter.start(deck.solver.end_time, deck.title, {"particles": 3})
+        outputs.history({"step": 1, "time": 1e-6, "energy_error": 0.0})
+        outputs.tips([{"step": 1, "time": 1e-6, **TIP, "status": "ok"}])
+        outputs.particle_frame(1, 1e-6, np.zeros((3, 2)), {"mass": np.ones(3)})
+        if stub.error is not None:
+            raise stub.error
+        return Summary(1, deck.solver.end_time, 0.1, [TIP], 0.0, 1e6)
+
+    def estimate(deck):
+        return {"cells": 900, **stub.needs}
+
+    for name, parts in {
+        "cramp_cli.build": {"build": build, "estimate": estimate},
+        "cramp_cli.simulation": {"simulate": simulate, "warm_up": lambda: None},
+    }.items():
+        module = ModuleType(name)
+        module.__dict__.update(parts)
+        monkeypatch.setitem(sys.modules, name, module)
+    return stub

@@ -1,0 +1,330 @@
+"""The commands: what they print where, and how they end."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import time
+
+import pytest
+import yaml
+
+import cramp_cli
+from cramp_cli.state.failure import NumericalFailure
+
+WRONG = "cramp: 1\nanalysis: plane_strian\nsolver: {end_time: 1 kg}\n"
+
+
+def shell(line, **environment):
+    """Run a command line in a shell, as users do."""
+    line = line.replace("cramp ", f"'{sys.executable}' -m cramp_cli ")
+    settings = {**os.environ, **environment}
+    return subprocess.run(["bash", "-c", line], capture_output=True, text=True, env=settings)
+
+
+# ------------------------------------------------------------------ words
+
+
+def test_version(cramp):
+    assert cramp("--version") == (0, f"cramp {cramp_cli.__version__}\n", "")
+
+
+def test_help_names_every_command(cramp):
+    code, out, _ = cramp("--help")
+    assert code == 0
+    for name in ("run", "check", "show", "schema", "info", "export", "doctor"):
+        assert f"\n  {name} " in out
+
+
+@pytest.mark.parametrize(
+    "name", ["run", "check", "show", "schema", "info", "export", "doctor", "--version"]
+)
+def test_every_command_has_help_of_80_columns(cramp, name):
+    code, out, _ = cramp(name, "--help")
+    assert code == 0
+    assert max(map(len, out.splitlines())) <= 80
+    assert "..." not in out.split("Options:")[0].replace("DECK...", "")
+
+
+def test_help_imports_nothing_heavy():
+    """Promise: `cramp --help` answers within 0.3 s; here the cause is tested, not the clock."""
+    program = (
+        "import sys; from cramp_cli.__main__ import main; main(['--help']);"
+        "heavy = {'numba', 'h5py', 'scipy', 'pint', 'meshio', 'numpy', 'pydantic', 'matplotlib'};"
+        "sys.exit(' '.join(heavy & set(sys.modules)))"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_help_is_quick():
+    best = min(_seconds("cramp --help") for _ in range(5))
+    assert best < 0.6  # 0.12 s on a free machine; tests share theirs
+
+
+def _seconds(line):
+    begun = time.perf_counter()
+    assert shell(line).returncode == 0
+    return time.perf_counter() - begun
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["run"],
+        ["fly"],
+        ["run", "plate.yaml", "--max-memory", "much"],
+        ["run", "plate.yaml", "-t", "0"],
+        ["run", "plate.yaml", "--progress", "loud"],
+        ["export", "x", "--format", "docx"],
+        [],
+    ],
+)
+def test_wrong_words_are_usage_errors(cramp, words):
+    code, out, err = cramp(*words)
+    assert code == 2
+    assert out == "" or not words
+    assert "Usage: cramp" in err + out
+
+
+# ------------------------------------------------------------------ streams
+
+
+def test_a_reader_that_leaves_ends_nothing(here):
+    done = shell("set -o pipefail; cramp schema | head -c 1 > /dev/null; echo ${PIPESTATUS[0]}")
+    assert (done.stdout, done.stderr) == ("0\n", "")
+
+
+@pytest.mark.parametrize("closed", [">&-", "2>&-", ">&- 2>&-", "<&- >&- 2>&-"])
+def test_closed_streams_end_nothing(here, closed):
+    done = shell(f"cramp show plate.yaml {closed}")
+    assert done.returncode == 0
+    assert "Traceback" not in done.stderr
+
+
+def test_a_foreign_alphabet_ends_nothing(here):
+    deck = (here / "plate.yaml").read_text(encoding="utf-8").replace("Plate", "Räißer π")
+    (here / "größe.yaml").write_text(deck, encoding="utf-8")
+    done = shell("cramp show größe.yaml", PYTHONIOENCODING="ascii", LC_ALL="de_DE.UTF-8")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "title: 'R" in done.stdout or "title: R" in done.stdout
+
+
+# ------------------------------------------------------------------ decks
+
+
+def test_check_of_a_good_deck(cramp):
+    code, out, _ = cramp("check", "plate.yaml")
+    assert (code, out) == (0, "plate.yaml: no mistakes\n")
+
+
+def test_check_names_all_mistakes_with_their_lines(cramp, here):
+    (here / "bad.yaml").write_text(WRONG)
+    code, out, err = cramp("check", "bad.yaml", "plate.yaml")
+    assert code == 3
+    assert "bad.yaml:2:11: analysis:" in err
+    assert "bad.yaml:3:20: solver.end_time:" in err
+    assert out == "plate.yaml: no mistakes\n"
+
+
+def test_check_answers_in_json(cramp, here):
+    (here / "bad.yaml").write_text(WRONG)
+    code, out, _ = cramp("check", "--json", "bad.yaml", "plate.yaml")
+    bad, good = json.loads(out)
+    assert code == 3
+    assert (bad["valid"], good["valid"]) == (False, True)
+    assert any("plane_strian" in mistake for mistake in bad["mistakes"])
+
+
+def test_check_reports_what_a_run_takes(cramp, solver):
+    code, out, _ = cramp("check", "--report", "plate.yaml")
+    assert code == 0
+    assert out.splitlines()[1:] == ["  cells   900", "  memory  1 kB", "  disk    1 kB"]
+
+
+def test_show_writes_defaults_and_settings(cramp):
+    code, out, _ = cramp("show", "plate.yaml", "-s", "solver.cfl=0.25")
+    shown = yaml.safe_load(out)
+    assert code == 0
+    assert shown["solver"]["cfl"] == 0.25
+    assert shown["solver"]["shape"] == "ugimp"
+    assert shown["materials"]["glass"]["E"] == 70e9
+
+
+def test_what_show_writes_is_a_deck(cramp, here):
+    (here / "again.yaml").write_text(cramp("show", "plate.yaml")[1])
+    assert cramp("show", "again.yaml")[1] == cramp("show", "plate.yaml")[1]
+
+
+def test_schema_is_json(cramp):
+    code, out, _ = cramp("schema")
+    assert code == 0
+    assert {"materials", "cracks", "grid"} <= set(json.loads(out)["properties"])
+
+
+@pytest.mark.parametrize("command", ["run", "check", "show"])
+def test_a_missing_deck_is_named(cramp, command):
+    code, out, err = cramp(command, "nowhere.yaml")
+    assert (code, out) == (4, "")
+    assert err == "cramp: nowhere.yaml: No such file or directory\n"
+
+
+def test_a_folder_is_no_deck(cramp, here):
+    assert cramp("run", here)[0] == 4
+
+
+# ------------------------------------------------------------------ runs, without the solver
+
+
+def test_run_prints_its_folder_and_tells_the_rest_on_stderr(cramp, solver, here):
+    code, out, err = cramp("run", "plate.yaml")
+    assert (code, out) == (0, "plate.run\n")
+    assert "notch end" in err
+    assert "3e+05" in err
+    assert (here / "plate.run/input.yaml").read_bytes() == (here / "plate.yaml").read_bytes()
+    assert json.loads((here / "plate.run/manifest.json").read_text())["status"] == "done"
+
+
+def test_quiet_means_quiet(cramp, solver):
+    assert cramp("-q", "run", "plate.yaml")[1:] == ("plate.run\n", "")
+
+
+def test_resolved_deck_holds_the_settings(cramp, solver, here):
+    assert cramp("run", "plate.yaml", "--end-time", "3 us", "-s", "solver.cfl=0.1")[0] == 0
+    resolved = yaml.safe_load((here / "plate.run/resolved.yaml").read_text())
+    assert resolved["solver"]["end_time"] == 3e-6
+    assert resolved["solver"]["cfl"] == 0.1
+
+
+def test_a_wrong_setting_is_a_mistake_of_the_deck(cramp, solver, here):
+    code, _, err = cramp("run", "plate.yaml", "-s", "solver.clf=0.1")
+    assert code == 3
+    assert "did you mean 'cfl'" in err
+    assert not (here / "plate.run").exists()
+
+
+def test_an_earlier_run_is_replaced_only_on_demand(cramp, solver):
+    assert cramp("run", "plate.yaml")[0] == 0
+    code, _, err = cramp("run", "plate.yaml")
+    assert code == 4
+    assert "--overwrite" in err
+    assert cramp("run", "plate.yaml", "--overwrite")[0] == 0
+
+
+def test_a_dry_run_writes_nothing(cramp, solver, here):
+    code, out, err = cramp("run", "plate.yaml", "--dry-run")
+    assert (code, out, solver.built) == (0, "", 0)
+    assert "cells" in err
+    assert [path.name for path in here.iterdir()] == ["plate.yaml"]
+
+
+def test_a_run_too_big_is_refused_before_it_is_built(cramp, solver, here):
+    solver.needs["memory_bytes"] = 10**16
+    code, _, err = cramp("run", "plate.yaml")
+    assert (code, solver.built) == (5, 0)
+    assert "10000000000000000 bytes" in err
+    assert not (here / "plate.run").exists()
+
+
+@pytest.mark.parametrize("option", ["--max-memory", "--max-disk"])
+def test_limits_of_the_user_are_kept(cramp, solver, option):
+    assert cramp("run", "plate.yaml", option, "999 B")[0] == 5
+    assert cramp("run", "plate.yaml", option, "1 kB")[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("error", "code", "said"),
+    [
+        (NumericalFailure("step 7: NaN in particle 12"), 6, "cramp: step 7: NaN in particle 12"),
+        (OSError(28, "No space left on device"), 5, "cramp: No space left on device"),
+        (KeyboardInterrupt(), 130, "cramp: interrupted"),
+        (ZeroDivisionError("a fault"), 70, "cramp: internal error: ZeroDivisionError: a fault"),
+    ],
+)
+def test_a_run_that_fails_says_so_in_a_line(cramp, solver, here, error, code, said):
+    solver.error = error
+    ended, out, err = cramp("run", "plate.yaml", "--progress", "none")
+    assert (ended, out) == (code, "")
+    assert err.splitlines()[-1] == f"{said} (see plate.run/run.log)"
+    assert "Traceback" not in err
+    assert json.loads((here / "plate.run/manifest.json").read_text())["exit_code"] == code
+
+
+def test_strict_takes_warnings_as_mistakes(cramp, solver, here):
+    deck = (here / "plate.yaml").read_text().replace("nu: 0.2", "nu: 0.495")
+    (here / "soft.yaml").write_text(deck)
+    code, _, err = cramp("run", "soft.yaml")
+    assert code == 0
+    assert "warning: soft.yaml:6:" in err
+    assert cramp("run", "soft.yaml", "--strict", "--overwrite")[0] == 3
+    assert cramp("check", "soft.yaml", "--strict")[0] == 3
+
+
+# ------------------------------------------------------------------ results
+
+
+def test_info_tells_how_a_run_went(cramp, solver):
+    cramp("run", "plate.yaml")
+    code, out, _ = cramp("info", "plate.run")
+    assert code == 0
+    assert "done" in out
+    assert "1 of particles" in out
+    assert "notch end" in out
+    tips = json.loads(cramp("info", "--tips", "--json", "plate.run")[1])
+    assert tips[0]["K_I"] == 3e5
+
+
+def test_export_prints_what_to_open(cramp, solver, here):
+    cramp("run", "plate.yaml")
+    code, out, _ = cramp("export", "plate.run")
+    assert (code, out) == (0, "plate.run/export/particles.pvd\n")
+    assert cramp("export", "plate.run", "--format", "csv", "-o", "tables")[0] == 0
+    assert (here / "tables/particles_000000.csv").exists()
+
+
+@pytest.mark.parametrize("command", ["info", "export"])
+def test_what_is_no_run_is_named(cramp, here, command):
+    for path in ("nowhere", here):
+        code, _, err = cramp(command, path)
+        assert code == 4
+        assert str(path) in err
+
+
+def test_doctor_finds_this_installation_well(cramp, solver, monkeypatch, tmp_path):
+    monkeypatch.setenv("CRAMP_CACHE_DIR", str(tmp_path / "kernels"))
+    code, out, err = cramp("doctor", "--warmup")
+    assert (code, err) == (0, "")
+    for part in ("numba", "threads", "memory free", str(tmp_path / "kernels"), "compiled in"):
+        assert part in out
+
+
+# ------------------------------------------------------------------ with the solver
+
+
+def test_a_small_plate_runs_from_end_to_end(here):
+    done = shell("cramp run plate.yaml -o 'run ü' --progress lines")
+    assert done.returncode == 0, done.stderr
+    assert done.stdout == "run ü\n"
+    assert max(map(len, done.stderr.splitlines())) <= 80
+    names = {path.name for path in (here / "run ü").iterdir()}
+    assert {"history.csv", "cracks.csv", "particles.xdmf", "cracks.xdmf"} <= names
+
+
+def test_a_deck_beyond_all_memory_is_refused_at_once(here):
+    done = shell("cramp run plate.yaml -s grid.cell='1 nm'")
+    assert done.returncode == 5, done.stderr
+    assert "bytes" in done.stderr
+    assert not (here / "plate.run").exists()
+
+
+def test_two_runs_in_one_folder(here):
+    """The second is refused and names the first."""
+    if shutil.which("bash") is None:
+        raise AssertionError("this test needs bash")
+    line = "cramp run plate.yaml -s solver.end_time=1 -q & first=$!; "
+    line += "until [ -e plate.run/manifest.json ]; do sleep 0.1; done; "
+    line += "cramp run plate.yaml --overwrite; echo $?; kill -9 $first"
+    done = shell(line)
+    assert done.stdout.splitlines()[0] == "4"
+    assert "in use by process" in done.stderr
