@@ -157,7 +157,7 @@ def run(
 
 @app.command()
 def check(
-    decks: Annotated[list[Path], typer.Argument(help="Decks to look at.", metavar="DECK...")],
+    decks: Annotated[list[Path], typer.Argument(help="Decks to look at.")],
     sets: Sets = None,
     as_json: Json = False,
     report: Annotated[

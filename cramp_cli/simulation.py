@@ -227,9 +227,3 @@ def _facts(model, state) -> dict:
         "time step": f"{model.dt:.6g} s, {int(np.ceil(model.end_time / model.dt))} steps",
     }
 
-
-def warm_up() -> None:
-    """Compile all kernels for the usual kinds of runs."""
-    from cramp_cli.warm import run_small_cases
-
-    run_small_cases()

@@ -43,6 +43,7 @@ def step(model, state, scratch, watch) -> None:
         grid.saved[:count] = grid.momentum[:count]
         touch(grid, rows, laws, model.strides, dt, FIRST)
         repeat_images(conditions, scratch, grid.momentum, grid.saved)
+        book_tractions(model, scratch, state, time, 0.5 * dt)
 
     with watch("4 strain before the forces"):  # all of the step in USF, half in USAVG, none in USL
         if model.scheme.before:
@@ -70,7 +71,6 @@ def step(model, state, scratch, watch) -> None:
 
     with watch("8 cracks move"):
         find_velocity(grid, count)
-        book_tractions(model, scratch, state, time, dt)
         move_paths(model, state, scratch)
 
     with watch("9 strain after the motion"):  # none of the step in USF, half in USAVG, all in USL
@@ -81,6 +81,7 @@ def step(model, state, scratch, watch) -> None:
             touch(grid, rows, laws, model.strides, dt, LAST)
             repeat_images(conditions, scratch, grid.momentum)
             hold_momenta(conditions, scratch, time)
+        book_tractions(model, scratch, state, time, 0.5 * dt)
         if model.scheme.after:
             find_strain_velocity(model, state, scratch)
             sums.strain(model, state, scratch, model.scheme.after, fresh=not model.scheme.before)

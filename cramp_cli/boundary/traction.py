@@ -30,17 +30,17 @@ def add_traction(grid, stencil, faces, shape, strides, factor):
     for c in range(len(particle)):
         p = particle[c]
         S = point_weights(plus(vector(strides, local, p), 1.0, vector(strides, corner, c)), shape)
-        line = near[p]
+        first, line = base[p], near[p]
         for k in range(len(steps)):
-            row = base[p] + steps[k] if line < 0 else table[line, k]
+            row = first + steps[k] if line < 0 else table[line, k]
             for d in range(len(strides)):
                 force[row, d] += factor * S[k] * load[c, d]
 
 
 @kernel
-def traction_power(grid, stencil, faces, shape, strides, dt):
-    """Return the power of the face forces under unit load (W), in the middle of the step."""
-    velocity, acceleration = grid.velocity, grid.acceleration
+def traction_power(grid, stencil, faces, shape, strides):
+    """Return the power of the face forces under unit load with the momenta of the grid (W)."""
+    momentum, mass = grid.momentum, grid.mass
     base, local, near, table = stencil.base, stencil.local, stencil.near, stencil.table
     particle, corner, load = faces.particle, faces.corner, faces.force
     steps = offsets(strides, shape)
@@ -48,9 +48,10 @@ def traction_power(grid, stencil, faces, shape, strides, dt):
     for c in range(len(particle)):
         p = particle[c]
         S = point_weights(plus(vector(strides, local, p), 1.0, vector(strides, corner, c)), shape)
-        line = near[p]
+        first, line = base[p], near[p]
         for k in range(len(steps)):
-            row = base[p] + steps[k] if line < 0 else table[line, k]
-            v = plus(vector(strides, velocity, row), -0.5 * dt, vector(strides, acceleration, row))
-            power += S[k] * dot(v, vector(strides, load, c))
+            row = first + steps[k] if line < 0 else table[line, k]
+            if mass[row] > 0.0:
+                p_dot_f = dot(vector(strides, momentum, row), vector(strides, load, c))
+                power += S[k] * p_dot_f / mass[row]
     return power

@@ -45,7 +45,7 @@ def _names_given_twice(data: dict, key: str) -> Iterator[Wrong]:
 def _bodies_of_loads(data: dict) -> Iterator[Wrong]:
     bodies = [entry for _, entry in _sections(data, "bodies") if isinstance(entry.get("name"), str)]
     holes = [entry["name"] for entry in bodies if entry.get("hole") is True]
-    solid = [entry["name"] for entry in bodies if entry.get("hole") is not True]
+    solid = list(dict.fromkeys(one["name"] for one in bodies if one.get("hole") is not True))
     for place, load in _sections(data, "loads") if bodies else ():
         name = load.get("body")
         if not isinstance(name, str) or name in solid:

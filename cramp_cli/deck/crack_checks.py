@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from typing import Any
 
+from cramp_cli.deck.bodies import BodySection
 from cramp_cli.deck.cracks import CrackSection
 from cramp_cli.deck.parts import Parts
 from cramp_cli.schema.section import Wrong
@@ -20,44 +21,60 @@ def crack_mistakes(parts: Parts) -> Iterator[Wrong]:
             key = ("segment",) if crack.segment else ()
             message = f"would be cut into {pieces:.3g} pieces (at most {MOST_PIECES})"
             yield ("cracks", place, *key), message
-    if not parts.all_bodies or not parts.solids or not parts.cracks:
-        return
-    solid = solid_region(parts)
-    for place, crack in parts.cracks:
-        if solid is not None and _length_inside(crack, solid) <= 1e-9 * crack.length:
-            yield ("cracks", place), "lies wholly outside every body"
+    if parts.all_bodies and parts.solids:
+        regions = _regions(parts)
+        for place, crack in parts.cracks:
+            if _length_inside(crack, regions) <= 1e-9 * crack.length:
+                yield ("cracks", place), "lies wholly outside every body"
 
 
-def solid_region(parts: Parts) -> Any:
-    """Return all bodies without holes as one shapely geometry; None if that cannot be computed."""
+def _regions(parts: Parts) -> list[tuple]:
+    """Return bounds, outline and whether it is a hole for each body, in the order of the deck."""
+    if not parts.cracks:
+        return []
+    return [(*_flat(body), body.shape.outline(), body.hole) for _, body in parts.bodies]
+
+
+def _flat(body: BodySection) -> tuple[float, float, float, float]:
+    lower, upper = body.shape.bounds()
+    return (*lower, *upper)
+
+
+def _near(regions: list[tuple], line: Any) -> list[tuple]:
+    """Return outline and hole of those regions whose bounds touch those of a line."""
+    a, b, c, d = line.bounds
+    return [
+        (outline, hole)
+        for x0, y0, x1, y1, outline, hole in regions
+        if x0 <= c and x1 >= a and y0 <= d and y1 >= b
+    ]
+
+
+def _length_inside(crack: CrackSection, regions: list[tuple]) -> float:
+    """Return how much of a crack (m) lies in bodies and not in later holes."""
     import shapely
 
-    region = shapely.Polygon()
+    line, inside = shapely.LineString(crack.corners), shapely.LineString()
     try:
-        for _, body in parts.bodies:
-            outline = body.shape.outline()
-            region = region - outline if body.hole else region | outline
-    except shapely.errors.ShapelyError:
-        return None
-    return region
-
-
-def _length_inside(crack: CrackSection, solid: Any) -> float:
-    import shapely
-
-    try:
-        return shapely.LineString(crack.corners).intersection(solid).length
-    except shapely.errors.ShapelyError:
+        for outline, hole in _near(regions, line):
+            inside = inside - outline if hole else inside | (line & outline)
+    except shapely.errors.ShapelyError:  # shapes too odd to compute with: nothing is claimed
         return crack.length
+    return inside.length
+
+
+def _is_outside(point: tuple[float, float], regions: list[tuple]) -> bool:
+    """Return whether a point is in no body, or in a later hole."""
+    import shapely
+
+    spot = shapely.Point(point)
+    holes = [hole for outline, hole in _near(regions, spot) if outline.intersects(spot)]
+    return not holes or holes[-1]
 
 
 def crack_warnings(parts: Parts) -> Iterator[Wrong]:
     """Yield what is possible but seldom meant: coarse particles, odd pieces, tips in the air."""
-    if not parts.cracks:
-        return
-    import shapely
-
-    cell, solid = parts.grid.cell, solid_region(parts)
+    cell, regions = parts.grid.cell, _regions(parts)
     for place, crack in parts.cracks:
         path = ("cracks", place)
         if crack.segment and not SHORTEST * cell <= crack.segment <= LONGEST * cell:
@@ -65,14 +82,15 @@ def crack_warnings(parts: Parts) -> Iterator[Wrong]:
             usual = f"usual are {SHORTEST:g} to {LONGEST:g}"
             yield (*path, "segment"), f"is {share:.3g} cells; {usual}"
         for key, point in (("start", crack.corners[0]), ("end", crack.corners[-1])):
-            in_the_air = solid is not None and not solid.intersects(shapely.Point(point))
-            if getattr(crack, key) == "tip" and in_the_air:
+            if getattr(crack, key) == "tip" and _is_outside(point, regions):
                 yield (*path, key), "is a tip outside every body; 'edge' may be meant"
         yield from _coarse_bodies(parts, crack)
 
 
 def _coarse_bodies(parts: Parts, crack: CrackSection) -> Iterator[Wrong]:
     for place, body in parts.solids:
-        if body.particles_per_cell < 2 and _length_inside(crack, body.shape.outline()) > 0.0:
+        if body.particles_per_cell > 1:
+            continue
+        if _length_inside(crack, [(*_flat(body), body.shape.outline(), False)]) > 0.0:
             message = f"fewer than 2 along each side of a cell, but crack {crack.name} runs here"
             yield ("bodies", place, "particles_per_cell"), message

@@ -128,6 +128,8 @@ class CrackSection(Section):
         if self.points is not None and len(set(self.points)) < 2:
             count = len(set(self.points))
             yield ("points",), f"must have at least 2 different points (got {count})"
+        elif self.arc is not None and len(self.corners) < 2:
+            yield ("arc",), "is too small beside its coordinates"
 
     @cached_property
     def corners(self) -> tuple[tuple[float, float], ...]:

@@ -70,3 +70,4 @@ def _mark(source: Source, path: Path, setting: str) -> None:
     for known in [other for other in source.marks if other[: len(path)] == path]:
         del source.marks[known]
     source.marks[path] = Mark(0, 0, 0, 0, setting)
+    source.settings[path] = setting

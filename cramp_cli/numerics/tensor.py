@@ -10,7 +10,7 @@ from cramp_cli.numerics.dispatch import by_length
 
 __all__ = [
     "add_outer", "apply", "determinant", "dot", "increment", "matrix", "outer", "outer_sum", "pick",
-    "plus", "product", "rotation_of", "scaled", "solid_strain", "times", "turn", "vector", "work_of",
+    "plus", "product", "rotation_of", "scaled", "solid_strain", "symmetric", "times", "turn", "vector", "work_of",
     "zero_matrix",
 ]  # fmt: skip
 
@@ -186,24 +186,36 @@ def _(like, a, i):
 
 
 @by_length
-def apply(g, stress, p):
-    """Return the symmetric tensor in row `p` of `stress` times the vector `g`."""
+def symmetric(like, a, i):
+    """Return row `i` of an array of symmetric tensors: 4 components for vectors of 2, 6 for 3."""
+
+
+@symmetric.implement(2)
+def _(like, a, i):
+    return (a[i, 0], a[i, 1], a[i, 2], a[i, 3])
+
+
+@symmetric.implement(3)
+def _(like, a, i):
+    return (a[i, 0], a[i, 1], a[i, 2], a[i, 3], a[i, 4], a[i, 5])
+
+
+@by_length
+def apply(g, T):
+    """Return the symmetric tensor T (as read by `symmetric`) times the vector `g`."""
 
 
 @apply.implement(2)
-def _(g, stress, p):
-    return (
-        stress[p, 0] * g[0] + stress[p, 3] * g[1],
-        stress[p, 3] * g[0] + stress[p, 1] * g[1],
-    )
+def _(g, T):
+    return (T[0] * g[0] + T[3] * g[1], T[3] * g[0] + T[1] * g[1])
 
 
 @apply.implement(3)
-def _(g, stress, p):
+def _(g, T):
     return (
-        stress[p, 0] * g[0] + stress[p, 3] * g[1] + stress[p, 5] * g[2],
-        stress[p, 3] * g[0] + stress[p, 1] * g[1] + stress[p, 4] * g[2],
-        stress[p, 5] * g[0] + stress[p, 4] * g[1] + stress[p, 2] * g[2],
+        T[0] * g[0] + T[3] * g[1] + T[5] * g[2],
+        T[3] * g[0] + T[1] * g[1] + T[4] * g[2],
+        T[5] * g[0] + T[4] * g[1] + T[2] * g[2],
     )
 
 

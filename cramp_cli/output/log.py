@@ -50,7 +50,7 @@ class Reporter:
         self.mode = _mode(progress) if verbosity > 0 else "none"
         self._total: float | None = None
         self._next_time, self._next_wall = 0.0, 0.0
-        self._headed = False
+        self._first: tuple[float, float] | None = None
         self._bar = None
 
     def __enter__(self) -> "Reporter":
@@ -100,14 +100,19 @@ class Reporter:
             self._bar = None
 
     def _add_line(self, step: int, time: float, wall: float, extra: dict[str, float]) -> None:
+        lines = [progress_head(extra)] if self._first is None else []
+        self._first = self._first or (time, wall)
         done = time / self._total if self._total else 0.0
-        left = seconds_left(wall, time, self._total)
-        lines = [] if self._headed else [progress_head(extra)]
-        lines.append(progress_line(step, time, done, left, extra))
-        self._headed = True
+        lines.append(progress_line(step, time, done, self._left(time, wall), extra))
         self.log.write("info", "\n".join(lines))
         if self.mode == "lines":
             _to_screen("\n".join(lines))
+
+    def _left(self, time: float, wall: float) -> float | None:
+        """Return the seconds to go; the time to compile, before the first line, does not count."""
+        time_before, wall_before = self._first or (0.0, 0.0)
+        end = None if self._total is None else self._total - time_before
+        return seconds_left(wall - wall_before, time - time_before, end)
 
     def _move_bar(self, time: float, extra: dict[str, float]) -> None:
         text = "  ".join(f"{name} {value:.4g}" for name, value in list(extra.items())[:2])

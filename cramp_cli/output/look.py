@@ -9,7 +9,7 @@ from cramp_cli.output.fields import count_frames
 from cramp_cli.output.folder import is_run_folder
 from cramp_cli.output.tables import duration
 
-NUMBERS = ("step", "time", "x", "y", "J", "K_I", "K_II", "K_III")
+WORDS = ("crack", "tip", "status")
 
 
 def describe(run: Path) -> dict:
@@ -52,7 +52,7 @@ def last_tips(run: Path) -> list[dict]:
 
 
 def _with_numbers(row: dict) -> dict:
-    return {name: float(text) if name in NUMBERS else text for name, text in row.items()}
+    return {name: text if name in WORDS else float(text) for name, text in row.items()}
 
 
 def _read(path: Path) -> dict:

@@ -1,9 +1,13 @@
 """The outcome of a run in a few numbers, and the page that shows it."""
 
 import io
+from math import isfinite, nan
 from typing import NamedTuple
 
 from cramp_cli.output.tables import WIDTH, duration, number
+
+BY_DOMAIN = ("x", "y", "J", "K_I", "K_II")
+BY_CONTOUR = ("J_contour", "K_I_contour", "K_II_contour")
 
 
 class Summary(NamedTuple):
@@ -49,7 +53,14 @@ def _table(tips: list[dict]):
         table.add_column(heading, justify="right", no_wrap=True)
     table.add_column("status", overflow="fold")
     for tip in tips:
-        numbers = (number(tip.get(name)) for name in ("x", "y", "J", "K_I", "K_II"))
         name = f"{tip.get('crack', '')} {tip.get('tip', '')}".strip()
-        table.add_row(name, *numbers, str(tip.get("status", "")))
+        table.add_row(
+            name, *_numbers(tip, "x", "y", "J", "K_I", "K_II"), str(tip.get("status", ""))
+        )
+        if isfinite(tip.get("J_contour", nan)):
+            table.add_row("  by contour", "", "", *_numbers(tip, *BY_CONTOUR), "")
     return table
+
+
+def _numbers(tip: dict, *names: str) -> list[str]:
+    return [number(tip.get(name)) for name in names]

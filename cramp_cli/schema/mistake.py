@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 Path = tuple[str | int, ...]
+MOST_NAMED = 200  # entries of a list that go by their names; in longer ones by their numbers
 
 
 class Mark(NamedTuple):
@@ -53,6 +54,7 @@ class Source:
     data: object = None
     marks: dict[Path, Mark] = field(default_factory=dict)
     mistakes: list[Mistake] = field(default_factory=list)
+    settings: dict[Path, str] = field(default_factory=dict)  # what the command line changed
 
     def mistake(self, path: Path, message: str, at_key: bool = False) -> Mistake:
         """Return a mistake at a path of keys; what the deck leaves out is blamed on its parent."""
@@ -71,8 +73,8 @@ class Source:
         """Return the setting of the command line that changed something below a path, if any."""
         if not path:
             return ""
-        below = (mark for key, mark in self.marks.items() if key[: len(path)] == path)
-        return next((mark.setting for mark in below if mark.setting), "")
+        changed = (setting for key, setting in self.settings.items() if key[: len(path)] == path)
+        return next(changed, "")
 
     def shown(self, path: Path) -> str:
         """Return a path as text; entries of a list go by their name when it is unique."""
@@ -93,7 +95,7 @@ def step_into(data: object, key: str | int) -> object:
 
 
 def _entry_name(entries: list, key: str | int) -> str:
-    name = entry_name(step_into(entries, key))
+    name = entry_name(step_into(entries, key)) if len(entries) <= MOST_NAMED else ""
     alike = sum(entry_name(entry) == name for entry in entries) if name else 0
     return name if alike == 1 else str(key)
 

@@ -91,8 +91,8 @@ class Scratch:
     rows: Rows
     stencil: Stencil
     segments: Any
-    held: list = field(default_factory=list)  # rows held by each velocity condition, and their number
-    free: list = field(default_factory=list)  # nodes of each symmetry plane that lie on its crack
+    held: list | None = None  # rows held by each velocity condition, and their number
+    free: list | None = None  # nodes of each symmetry plane that lie on its crack
 
     @property
     def row_count(self) -> int:

@@ -1,7 +1,7 @@
 """Sums over particles in grid rows: mass, momentum, forces."""
 
 from cramp_cli.numerics.kernel import kernel
-from cramp_cli.numerics.tensor import apply, pick, plus, scaled, times, vector
+from cramp_cli.numerics.tensor import apply, pick, plus, scaled, symmetric, times, vector
 from cramp_cli.shapes.shape import gradients, offsets, weights
 
 
@@ -21,9 +21,9 @@ def sum_mass_and_momentum(grid, particles, stencil, shape, strides, lo, hi):
     for p in range(lo, hi):
         S = weights(vector(strides, local, p), shape)
         mv = times(vector(strides, v, p), m[p])
-        line = near[p]
+        first, line = base[p], near[p]
         for k in range(len(steps)):
-            row = base[p] + steps[k] if line < 0 else table[line, k]
+            row = first + steps[k] if line < 0 else table[line, k]
             mass[row] += S[k] * m[p]
             for d in range(len(strides)):
                 momentum[row, d] += S[k] * mv[d]
@@ -39,9 +39,9 @@ def sum_momentum(grid, particles, stencil, shape, strides, lo, hi):
     for p in range(lo, hi):
         S = weights(vector(strides, local, p), shape)
         mv = times(vector(strides, v, p), m[p])
-        line = near[p]
+        first, line = base[p], near[p]
         for k in range(len(steps)):
-            row = base[p] + steps[k] if line < 0 else table[line, k]
+            row = first + steps[k] if line < 0 else table[line, k]
             for d in range(len(strides)):
                 momentum[row, d] += S[k] * mv[d]
 
@@ -55,13 +55,13 @@ def sum_internal_force(grid, particles, stencil, shape, strides, width, lo, hi):
     steps = offsets(strides, shape)
     for p in range(lo, hi):
         G = gradients(vector(strides, local, p), shape)
-        per_cell = -volume[p] / width
-        line = near[p]
+        tau = scaled(symmetric(strides, stress, p), -volume[p] / width)
+        first, line = base[p], near[p]
         for k in range(len(steps)):
-            row = base[p] + steps[k] if line < 0 else table[line, k]
-            t = apply(pick(G, k), stress, p)
+            row = first + steps[k] if line < 0 else table[line, k]
+            t = apply(pick(G, k), tau)
             for d in range(len(strides)):
-                force[row, d] += per_cell * t[d]
+                force[row, d] += t[d]
 
 
 @kernel
@@ -73,9 +73,9 @@ def sum_particle_force(grid, chosen, load, stencil, shape, strides, factor):
     for c in range(len(chosen)):
         p = chosen[c]
         S = scaled(weights(vector(strides, local, p), shape), factor)
-        line = near[p]
+        first, line = base[p], near[p]
         for k in range(len(steps)):
-            row = base[p] + steps[k] if line < 0 else table[line, k]
+            row = first + steps[k] if line < 0 else table[line, k]
             for d in range(len(strides)):
                 force[row, d] += S[k] * load[c, d]
 
@@ -91,12 +91,12 @@ def smooth(target, field, particles, stencil, shape, strides, lo, hi):
     steps = offsets(strides, shape)
     for p in range(lo, hi):
         S = weights(vector(strides, local, p), shape)
-        line = near[p]
+        first, line = base[p], near[p]
         v = times(vector(strides, field, 0), 0.0)
         for k in range(len(steps)):
-            row = base[p] + steps[k] if line < 0 else table[line, k]
+            row = first + steps[k] if line < 0 else table[line, k]
             v = plus(v, S[k], vector(strides, field, row))
         for k in range(len(steps)):
-            row = base[p] + steps[k] if line < 0 else table[line, k]
+            row = first + steps[k] if line < 0 else table[line, k]
             for d in range(len(strides)):
                 target[row, d] += m[p] * S[k] * v[d]

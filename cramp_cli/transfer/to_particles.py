@@ -36,11 +36,11 @@ def move_particles(particles, grid, stencil, update, shape, strides, damping, dt
     damped = 0.0
     for p in range(lo, hi):
         S = weights(vector(strides, local, p), shape)
-        line = near[p]
+        first, line = base[p], near[p]
         u = times(vector(strides, v, p), 0.0)
         Sa = u
         for k in range(len(steps)):
-            row = base[p] + steps[k] if line < 0 else table[line, k]
+            row = first + steps[k] if line < 0 else table[line, k]
             u = plus(u, S[k], vector(strides, velocity, row))
             Sa = plus(Sa, S[k], vector(strides, acceleration, row))
         V = vector(strides, v, p)
@@ -70,10 +70,10 @@ def update_stress(
     zero = zero_matrix(strides)
     for p in range(lo, hi):
         G = gradients(vector(strides, local, p), shape)
-        line = near[p]
+        first, line = base[p], near[p]
         gradient = zero
         for k in range(len(steps)):
-            row = base[p] + steps[k] if line < 0 else table[line, k]
+            row = first + steps[k] if line < 0 else table[line, k]
             gradient = add_outer(vector(strides, velocity, row), pick(G, k), gradient)
         gradient = scaled(gradient, 1.0 / width)
         dU = scaled(gradient, share * dt)

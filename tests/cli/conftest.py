@@ -17,7 +17,9 @@ grid: {lower: [-10 mm, -30 mm], upper: [50 mm, 30 mm], cell: 2 mm}
 materials:
   glass: {law: elastic, density: 2500 kg/m^3, E: 70 GPa, nu: 0.2}
 bodies:
-  - {name: plate, material: glass, shape: {type: rectangle, lower: [0, -20 mm], upper: [40 mm, 20 mm]}}
+  - name: plate
+    material: glass
+    shape: {type: rectangle, lower: [0, -20 mm], upper: [40 mm, 20 mm]}
 cracks:
   - {name: notch, points: [[0, 0], [15.3 mm, 0]], start: edge, end: tip}
 boundary:

@@ -2,7 +2,7 @@
 
 import json
 import os
-import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -11,6 +11,7 @@ import pytest
 import yaml
 
 import cramp_cli
+from cramp_cli.output.fields import read_frames
 from cramp_cli.state.failure import NumericalFailure
 
 WRONG = "cramp: 1\nanalysis: plane_strian\nsolver: {end_time: 1 kg}\n"
@@ -20,7 +21,8 @@ def shell(line, **environment):
     """Run a command line in a shell, as users do."""
     line = line.replace("cramp ", f"'{sys.executable}' -m cramp_cli ")
     settings = {**os.environ, **environment}
-    return subprocess.run(["bash", "-c", line], capture_output=True, text=True, env=settings)
+    words = ["bash", "-c", line]
+    return subprocess.run(words, capture_output=True, text=True, env=settings, timeout=120)
 
 
 # ------------------------------------------------------------------ words
@@ -35,6 +37,7 @@ def test_help_names_every_command(cramp):
     assert code == 0
     for name in ("run", "check", "show", "schema", "info", "export", "doctor"):
         assert f"\n  {name} " in out
+    assert "..." not in out.split("Commands:")[1]  # all summaries fit
 
 
 @pytest.mark.parametrize(
@@ -44,7 +47,6 @@ def test_every_command_has_help_of_80_columns(cramp, name):
     code, out, _ = cramp(name, "--help")
     assert code == 0
     assert max(map(len, out.splitlines())) <= 80
-    assert "..." not in out.split("Options:")[0].replace("DECK...", "")
 
 
 def test_help_imports_nothing_heavy():
@@ -52,7 +54,7 @@ def test_help_imports_nothing_heavy():
     program = (
         "import sys; from cramp_cli.__main__ import main; main(['--help']);"
         "heavy = {'numba', 'h5py', 'scipy', 'pint', 'meshio', 'numpy', 'pydantic', 'matplotlib'};"
-        "sys.exit(' '.join(heavy & set(sys.modules)))"
+        "sys.exit(' '.join(heavy & set(sys.modules)) or 0)"
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
     assert (done.returncode, done.stderr) == (0, "")
@@ -107,7 +109,8 @@ def test_a_foreign_alphabet_ends_nothing(here):
     deck = (here / "plate.yaml").read_text(encoding="utf-8").replace("Plate", "Räißer π")
     (here / "größe.yaml").write_text(deck, encoding="utf-8")
     done = shell("cramp show größe.yaml", PYTHONIOENCODING="ascii", LC_ALL="de_DE.UTF-8")
-    assert (done.returncode, done.stderr) == (0, "")
+    assert done.returncode == 0
+    assert "Traceback" not in done.stderr
     assert "title: 'R" in done.stdout or "title: R" in done.stdout
 
 
@@ -312,7 +315,7 @@ def test_a_small_plate_runs_from_end_to_end(here):
 
 
 def test_a_deck_beyond_all_memory_is_refused_at_once(here):
-    done = shell("cramp run plate.yaml -s grid.cell='1 nm'")
+    done = shell("cramp run plate.yaml -s grid.cell='0.1 um'")
     assert done.returncode == 5, done.stderr
     assert "bytes" in done.stderr
     assert not (here / "plate.run").exists()
@@ -320,11 +323,30 @@ def test_a_deck_beyond_all_memory_is_refused_at_once(here):
 
 def test_two_runs_in_one_folder(here):
     """The second is refused and names the first."""
-    if shutil.which("bash") is None:
-        raise AssertionError("this test needs bash")
-    line = "cramp run plate.yaml -s solver.end_time=1 -q & first=$!; "
-    line += "until [ -e plate.run/manifest.json ]; do sleep 0.1; done; "
-    line += "cramp run plate.yaml --overwrite; echo $?; kill -9 $first"
-    done = shell(line)
-    assert done.stdout.splitlines()[0] == "4"
-    assert "in use by process" in done.stderr
+    words = [sys.executable, "-m", "cramp_cli", "-q", "run", "plate.yaml", "-s"]
+    with subprocess.Popen([*words, "solver.end_time=1"]) as first:
+        deadline = time.monotonic() + 60.0
+        while not (here / "plate.run/manifest.json").exists() and first.poll() is None:
+            assert time.monotonic() < deadline
+            time.sleep(0.05)
+        second = shell("cramp run plate.yaml --overwrite")
+        first.kill()
+    assert second.returncode == 4
+    assert f"in use by process {first.pid} on" in second.stderr
+
+
+def test_an_interrupted_run_can_be_read(here):
+    words = [sys.executable, "-m", "cramp_cli", "-q", "run", "plate.yaml", "-s"]
+    with subprocess.Popen([*words, "solver.end_time=1"], stderr=subprocess.PIPE) as run:
+        deadline = time.monotonic() + 120.0
+        while not (here / "plate.run/cracks.xdmf").exists() and run.poll() is None:
+            assert time.monotonic() < deadline
+            time.sleep(0.05)
+        run.send_signal(signal.SIGINT)
+        _, err = run.communicate(timeout=30)
+    assert run.returncode == 130
+    assert err.decode() == "cramp: interrupted (see plate.run/run.log)\n"
+    manifest = json.loads((here / "plate.run/manifest.json").read_text())
+    assert (manifest["status"], manifest["exit_code"]) == ("interrupted", 130)
+    assert "interrupted" in shell("cramp info plate.run").stdout
+    assert len(list(read_frames(here / "plate.run/particles.xdmf"))) >= 1

@@ -135,6 +135,10 @@ def test_the_good_deck_is_good(tmp_path):
         ),
         ("cracks.0.points=[[20, 5], [12, 5]]", "cracks.left: lies wholly outside every body"),
         ("cracks.0.points=[[4, 5], [6, 5]]", "cracks.left: lies wholly outside every body"),
+        (
+            "cracks.0={name: a, arc: {center: [1, 1], radius: 1e-30, from: 0, to: 90}}",
+            "cracks.a.arc: is too small beside its coordinates",
+        ),
         ("cracks.0.segment=0", "cracks.left.segment: must be above 0 (got 0)"),
         (
             "cracks.0.segment=1e-9",

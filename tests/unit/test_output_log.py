@@ -87,6 +87,23 @@ def test_a_tip_without_numbers_is_shown_by_its_status():
     assert "closed" in text
 
 
+def test_contours_have_a_line_of_their_own():
+    contour = {"J_contour": 336.03, "K_I_contour": 5.797e5, "K_II_contour": 1.0}
+    text = tips_text([{"crack": "notch", "tip": "end", "status": "ok", **contour}])
+    line = next(line for line in text.splitlines() if "by contour" in line)
+    assert [cell.strip() for cell in line.split("|")[3:6]] == ["336", "5.797e+05", "1"]
+
+
+def test_time_to_compile_is_not_carried_forward(capsys):
+    reporter = Reporter(progress="lines")
+    reporter.start(1.0, "", {})
+    reporter.progress(1, 0.001, 100.0, {})
+    reporter.progress(500, 0.5, 101.0, {})
+    lines = capsys.readouterr().err.splitlines()
+    assert lines[-2].split() == ["1", "0.001", "0"]
+    assert lines[-1].split() == ["500", "0.5", "50", "1.0", "s"]
+
+
 def test_lines_align():
     head, line = progress_head(EXTRA), progress_line(12, 1.5e-3, 0.5, 4000.0, EXTRA)
     assert len(head) == len(line) <= WIDTH

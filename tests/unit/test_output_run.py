@@ -6,12 +6,12 @@ import json
 import numpy as np
 import pytest
 
-from cramp_cli.state.failure import NumericalFailure
 from cramp_cli.output.fields import read_frames
 from cramp_cli.output.folder import RunFolder
 from cramp_cli.output.look import describe, facts, last_tips
 from cramp_cli.output.run import RunOutputs
 from cramp_cli.output.summary import Summary
+from cramp_cli.state.failure import NumericalFailure
 
 DECK = "title: Balken mit Riß\n"
 TIP = {"crack": "mid", "tip": "start", "x": 0.05, "y": 0.0, "J": 336.0, "K_I": 5.8e5, "K_II": 0.0}
@@ -72,8 +72,9 @@ def test_every_file_is_there_and_no_other(tmp_path):
     ],
 )
 def test_an_early_end_is_recorded(tmp_path, error, status, code):
-    with pytest.raises(type(error)) as caught, outputs_in(tmp_path / "run") as outputs:
-        write_some(outputs)
+    outputs = outputs_in(tmp_path / "run")
+    write_some(outputs)
+    with pytest.raises(type(error)) as caught, outputs:
         raise error
     manifest = load(tmp_path / "run/manifest.json")
     assert (manifest["status"], manifest["exit_code"]) == (status, code)

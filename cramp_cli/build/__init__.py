@@ -1,0 +1,6 @@
+"""From a deck to numbers: model, state, and what a run of them will take."""
+
+from cramp_cli.build.estimate import estimate
+from cramp_cli.build.model import build
+
+__all__ = ["build", "estimate"]

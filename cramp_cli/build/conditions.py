@@ -1,0 +1,214 @@
+"""Boundary conditions and loads of a deck, as lists of nodes and particles."""
+
+import numpy as np
+
+from cramp_cli.boundary.conditions import (
+    Conditions,
+    Gravity,
+    Hold,
+    MirrorPlane,
+    ParticleForce,
+    Traction,
+)
+from cramp_cli.boundary.symmetry import Mirror
+from cramp_cli.boundary.traction import Faces
+from cramp_cli.boundary.velocity import Held
+from cramp_cli.deck.deck import DeckError
+from cramp_cli.shapes.linear import Linear
+
+ON_PLANE = 1e-6  # cells
+REACH = 1.5  # cells beside a region in which a node may hold particles of it
+
+
+def build_conditions(deck, lattice, particles, blocks, paths) -> tuple[Conditions, tuple]:
+    """Return all conditions, and the places that spoil a J domain with a word for each."""
+    builder = _Builder(deck, lattice, particles, blocks, paths)
+    for number, boundary in enumerate(deck.boundary):
+        builder.add_boundary(number, boundary)
+    for number, load in enumerate(deck.loads):
+        {"force": builder.add_force, "traction": builder.add_traction, "gravity": builder.add_gravity}[
+            load.type
+        ](number, load)
+    if builder.mistakes:
+        raise DeckError(builder.mistakes)
+    conditions = Conditions(
+        names=tuple(builder.names),
+        holds=tuple(builder.holds),
+        mirrors=tuple(builder.mirrors),
+        forces=tuple(builder.forces),
+        tractions=tuple(builder.tractions),
+        gravity=tuple(builder.gravity),
+    )
+    return conditions, tuple(builder.obstacles)
+
+
+class _Builder:
+    """Collects conditions and mistakes."""
+
+    def __init__(self, deck, lattice, particles, blocks, paths):
+        self.deck, self.lattice, self.particles = deck, lattice, particles
+        self.blocks, self.paths = blocks, paths
+        self.nodes = lattice.node_positions()
+        self.tolerance = ON_PLANE * lattice.width
+        self.names, self.holds, self.mirrors = [], [], []
+        self.forces, self.tractions, self.gravity = [], [], []
+        self.obstacles, self.mistakes = [], []
+
+    def wrong(self, path, message):
+        """Note a mistake at a place of the deck."""
+        self.mistakes.append(self.deck.mistake(path, message))
+
+    def add_boundary(self, number, boundary):
+        """Add a fixed or moving plane, or a symmetry plane."""
+        self.names.append(boundary.name or f"boundary_{number + 1}")
+        if boundary.symmetry:
+            self._add_mirror(number, boundary)
+        else:
+            self._add_holds(number, boundary)
+
+    def _add_holds(self, number, boundary):
+        where, width = boundary.where, self.lattice.width
+        lower = np.array([_span(where, d, self.tolerance)[0] for d in range(2)])
+        upper = np.array([_span(where, d, self.tolerance)[1] for d in range(2)])
+        planes = {axis for axis, _ in where.planes}
+        wide = np.array([0.0 if d in planes else REACH * width for d in range(2)])
+        near = np.all((self.nodes >= lower - wide) & (self.nodes <= upper + wide), axis=1)
+        node = np.flatnonzero(near)
+        inside = np.all((self.nodes[node] >= lower) & (self.nodes[node] <= upper), axis=1)
+        if not inside.any():
+            self.wrong(("boundary", number, "where"), "holds no grid node")
+        free = np.array([d in planes for d in range(2)])
+        region = (np.where(free, -np.inf, lower), np.where(free, np.inf, upper))
+        for axis, speed in boundary.components:
+            held = Held(node, inside.astype(np.int64), axis, *region)
+            self.holds.append(Hold(held, float(speed), boundary.in_time, number))
+        self._spoil(self.nodes[node[inside]], "a held boundary")
+
+    def _add_mirror(self, number, boundary):
+        axis, at = boundary.where.planes[0]
+        lattice, side = self.lattice, self._body_side(axis, at)
+        if not side:
+            message = "must not pass through a body: the other half is the body's image"
+            self.wrong(("boundary", number, "where"), message)
+            return
+        line = round((at - lattice.lower[axis]) / lattice.width)
+        if not 1 <= line < lattice.cells[axis]:
+            message = "needs a row of cells on either side of a symmetry plane; make the grid larger"
+            self.wrong(("boundary", number, "where"), message)
+            return
+        other = 1 - axis
+        low, high = _span(boundary.where, other, self.tolerance)
+        on = np.flatnonzero(
+            (np.abs(self.nodes[:, axis] - at) <= self.tolerance)
+            & (self.nodes[:, other] >= low)
+            & (self.nodes[:, other] <= high)
+        )
+        step = side * lattice.strides[axis]
+        crack = self._crack_on_plane(number, axis, at, side)
+        mirror = Mirror(axis, on, self.nodes[on], on - step, on + step, crack)
+        self.mirrors.append(MirrorPlane(mirror, number))
+        self._spoil(self.nodes[on], "a symmetry plane")
+
+    def _body_side(self, axis, at) -> int:
+        """Return +1 or -1 for the side of a plane on which all particles lie, 0 if both."""
+        sides = np.sign(self.particles.position[:, axis] - at)
+        return int(sides[0]) if np.all(sides == sides[0]) else 0
+
+    def _crack_on_plane(self, number, axis, at, side) -> int:
+        """Return the crack that lies on a symmetry plane, or -1, and tell the crack."""
+        found = -1
+        for c in range(self.paths.crack_count):
+            line = self.paths.point[self.paths.crack(c)]
+            if np.all(np.abs(line[:, axis] - at) <= self.tolerance):
+                if found >= 0:
+                    self.wrong(("boundary", number, "where"), "only one crack may lie on a symmetry plane")
+                found = c
+                along = line[-1, 1 - axis] - line[0, 1 - axis]
+                left = np.sign(along) * (1 if axis == 1 else -1)  # above the crack is +axis
+                self.paths.mirror[c] = axis, int(side * left)
+        return found
+
+    def add_force(self, number, load):
+        """Add forces on the particles of a body."""
+        chosen = self._particles_of(load, load.where, touching=True)
+        if not len(chosen):
+            self.wrong(("loads", number, "where"), f"holds no particle of body {load.body}")
+            return
+        each = np.array(load.total) / len(chosen) if load.total is not None else np.array(load.each)
+        for block in self.blocks:
+            mine = chosen[(chosen >= block.lo) & (chosen < block.hi)]
+            if len(mine):
+                force = np.tile(each, (len(mine), 1))
+                self.forces.append(ParticleForce(mine, force, block.shape, load.in_time))
+        self._spoil(self.particles.origin[chosen], "a loaded particle")
+
+    def add_traction(self, number, load):
+        """Add tractions on the faces of a body that lie on a plane."""
+        axis, at = load.where.planes[0]
+        candidates = self._particles_of(load, load.where, touching=True)
+        found = 0
+        for block in self.blocks:
+            mine = candidates[(candidates >= block.lo) & (candidates < block.hi)]
+            offset = at - self.particles.origin[mine, axis]
+            half = block.shape.half[axis] * self.lattice.width
+            on_face = np.abs(np.abs(offset) - half) <= 0.1 * half
+            mine, sign = mine[on_face], np.sign(offset[on_face])
+            if len(set(sign.tolist())) > 1:
+                self.wrong(("loads", number, "where"), f"lies inside body {load.body}; give its face")
+            elif len(mine):
+                found += len(mine)
+                faces = self._faces(mine, block, axis, sign[0], load)
+                self.tractions.append(Traction(faces, block.shape, load.in_time))
+        if not found:
+            message = f"no face of a particle of body {load.body} lies there"
+            self.wrong(("loads", number, "where"), message)
+        self._spoil(self.particles.origin[candidates], "a loaded face")
+
+    def _faces(self, chosen, block, axis, sign, load) -> Faces:
+        """Return both corners of the loaded face of each particle."""
+        half, width, other = block.shape.half, self.lattice.width, 1 - axis
+        corners = np.zeros((2, 2))
+        corners[:, axis] = sign * half[axis]
+        corners[:, other] = half[other], -half[other]
+        if isinstance(block.shape, Linear):  # a point sees no node beyond its own cell
+            corners[:] = 0.0
+        stress = np.array(load.traction) if load.traction is not None else np.zeros(2)
+        if load.pressure is not None:
+            stress[axis] = -sign * load.pressure
+        share = half[other] * width * self.deck.thickness
+        return Faces(
+            particle=np.repeat(chosen, 2),
+            corner=np.tile(corners, (len(chosen), 1)),
+            force=np.tile(stress * share, (2 * len(chosen), 1)),
+        )
+
+    def add_gravity(self, number, load):
+        """Add an acceleration of everything."""
+        self.gravity.append(Gravity(tuple(float(a) for a in load.acceleration), load.in_time))
+
+    def _particles_of(self, load, where, *, touching) -> np.ndarray:
+        """Return the particles of a body in a region; on a plane, those whose box touches it."""
+        body = next(n for n, b in enumerate(self.deck.bodies) if b.name == load.body)
+        inside = self.particles.body == body
+        per_cell = self.deck.bodies[body].particles_per_cell
+        half = 0.5 * self.lattice.width / per_cell if touching else 0.0
+        planes = {axis for axis, _ in where.planes}
+        for d in range(2):
+            low, high = _span(where, d, self.tolerance)
+            grown = half if d in planes else 0.0
+            x = self.particles.origin[:, d]
+            inside &= (x >= low - grown) & (x <= high + grown)
+        return np.flatnonzero(inside)
+
+    def _spoil(self, places, what):
+        """Note places near which no J domain can lie."""
+        low = self.particles.origin.min(axis=0) - self.lattice.width
+        high = self.particles.origin.max(axis=0) + self.lattice.width
+        near = np.all((places >= low) & (places <= high), axis=1)
+        self.obstacles.append((places[near], what))
+
+
+def _span(where, axis, tolerance) -> tuple[float, float]:
+    """Return the limits of a region along an axis (m), infinite where it has none."""
+    span = where.span(axis)
+    return (-np.inf, np.inf) if span is None else (span[0] - tolerance, span[1] + tolerance)

@@ -1,0 +1,58 @@
+"""What a run will take, told before anything is allocated."""
+
+from math import ceil, prod
+
+from cramp_cli.build.model import time_step, wave_speed
+
+STATE_BYTES = 16 * 8 + 12 * 8 + 13 * 8  # of a particle: vectors, tensors, numbers and its stencil
+ROW_BYTES = 14 * 8  # of a grid node
+FRAME_BYTES = {
+    "stress": 36,
+    "strain": 36,
+    "displacement": 12,
+    "velocity": 12,
+    "acceleration": 12,
+    "deformation_gradient": 36,
+    "energy": 4,
+}
+POINT_BYTES = 16  # position, body and material of a particle in a frame
+PACKED = 0.6  # what compression leaves
+
+
+def estimate(deck) -> dict:
+    """Return what a run takes: numbers for people, and `memory_bytes`, `disk_bytes`."""
+    box, width = deck.lattice_box(), deck.grid.cell
+    nodes = prod(cells + 1 for cells in box.cells)
+    particles = sum(
+        body.shape.outline().area * body.particles_per_cell**2 / width**2
+        for body in deck.bodies
+        if not body.hole
+    )
+    dt = time_step(deck)
+    frames = deck.solver.end_time / deck.output.every + 1 if deck.output.particles else 0
+    per_point = POINT_BYTES + sum(FRAME_BYTES[name] for name in deck.output.fields)
+    facts = {
+        "cells": " x ".join(str(cells) for cells in box.cells),
+        "particles": round(particles),
+        "time step": f"{dt:.6g} s",
+        "steps": ceil(deck.solver.end_time / dt),
+    }
+    for name, material in deck.materials.items():
+        facts |= _material_facts(deck, name, material)
+    return facts | {
+        "memory_bytes": int(particles * STATE_BYTES + nodes * ROW_BYTES),
+        "disk_bytes": int(frames * particles * per_point * PACKED),
+    }
+
+
+def _material_facts(deck, name, material) -> dict:
+    shear_speed = (material.shear / material.density) ** 0.5
+    stiffness = material.plane_modulus(deck.analysis)
+    facts = {
+        f"{name}: waves": f"{wave_speed(material):.5g} m/s dilational, {shear_speed:.5g} m/s shear",
+        f"{name}: K from J": f"K^2 = {stiffness:.5g} Pa * J",
+    }
+    if material.toughness is not None:
+        K, G = material.K_Ic_of(deck.analysis), material.G_Ic_of(deck.analysis)
+        facts[f"{name}: toughness"] = f"K_Ic = {K:.5g} Pa*m^0.5, G_Ic = {G:.5g} J/m^2"
+    return facts

@@ -1,0 +1,176 @@
+"""From a deck to a model and the state at time zero: the only place that knows both."""
+
+import numpy as np
+
+from cramp_cli.build.conditions import build_conditions
+from cramp_cli.cracks.contact import LAWS, ContactLaws
+from cramp_cli.cracks.tips import Fracture
+from cramp_cli.deck.deck import Deck, DeckError
+from cramp_cli.materials.elastic import Elastic
+from cramp_cli.materials.geometry import PlaneStrain, PlaneStress
+from cramp_cli.materials.law import confined_modulus
+from cramp_cli.shapes.linear import Linear
+from cramp_cli.shapes.ugimp import UniformGimp
+from cramp_cli.state.lattice import Lattice
+from cramp_cli.state.model import SCHEMES, Block, Model, State, no_energy
+from cramp_cli.state.particles import Particles, particles_at
+from cramp_cli.state.paths import EDGE, PLAIN, TIP, Paths, make_paths
+from cramp_cli.transfer.update import Flip, Fmpm, Xpic
+
+GEOMETRIES = {"plane_strain": PlaneStrain, "plane_stress": PlaneStress}
+SHAPES = {"linear": Linear, "ugimp": UniformGimp}
+ENDS = {"plain": PLAIN, "edge": EDGE, "tip": TIP}
+ON_PLANE = 1e-6  # cells
+
+
+def build(deck: Deck) -> tuple[Model, State]:
+    """Return the model that a deck describes and its state at time zero.
+
+    Raises DeckError for what can not be: a body without particles, a load on nothing.
+    """
+    lattice = build_lattice(deck)
+    seeds = [seed_body(deck, lattice, number) for number in range(len(deck.bodies))]
+    blocks, particles = _fill(deck, lattice, seeds)
+    paths = _paths(deck, lattice)
+    conditions, obstacles = build_conditions(deck, lattice, particles, blocks, paths)
+    settings = deck.fracture
+    model = Model(
+        lattice=lattice,
+        geometry=GEOMETRIES[deck.analysis](deck.thickness),
+        blocks=blocks,
+        update=_update(deck.solver),
+        scheme=SCHEMES[deck.solver.strain],
+        damping=(deck.solver.damping.grid, deck.solver.damping.particle),
+        dt=time_step(deck),
+        end_time=deck.solver.end_time,
+        crack_names=tuple(crack.name for crack in deck.cracks),
+        contact=_contact(deck),
+        conditions=conditions,
+        fracture=Fracture(
+            methods=settings.methods,
+            radii=settings.radius or (),
+            cells=settings.contour.cells,
+            terms=settings.contour.terms,
+            obstacles=obstacles,
+        ),
+    )
+    reactions = np.zeros((len(conditions.names), len(lattice.cells)))
+    return model, State(0.0, 0, particles, paths, no_energy(), reactions)
+
+
+def build_lattice(deck: Deck) -> Lattice:
+    """Return the background grid."""
+    box = deck.lattice_box()
+    return Lattice(tuple(box.cells), deck.grid.cell, tuple(float(x) for x in box.lower))
+
+
+def time_step(deck: Deck) -> float:
+    """Return the time step (s): the Courant condition of the fastest wave, or the deck's limit."""
+    speeds = [wave_speed(material) for material in deck.materials.values()]
+    step = deck.solver.cfl * deck.grid.cell / max(speeds)
+    return min(step, deck.solver.dt or step)
+
+
+def wave_speed(material) -> float:
+    """Return the dilational wave speed of a material (m/s), that of the solid also in plane stress."""
+    return float(np.sqrt(confined_modulus(_law(material)) / material.density))
+
+
+def seed_body(deck: Deck, lattice: Lattice, number: int) -> np.ndarray:
+    """Return the particle positions of a body, shape (n, 2): centres of equal parts of cells.
+
+    What a later body covers is left to that body.
+    """
+    body = deck.bodies[number]
+    if body.hole:
+        return np.zeros((0, 2))
+    per_cell, width = body.particles_per_cell, lattice.width
+    low, high = (np.asarray(corner) for corner in body.shape.bounds())
+    first = np.floor((low - lattice.lower) / width - ON_PLANE).astype(int)
+    last = np.ceil((high - lattice.lower) / width + ON_PLANE).astype(int)
+    axes = [
+        lattice.lower[d] + width / per_cell * (np.arange(per_cell * first[d], per_cell * last[d]) + 0.5)
+        for d in range(2)
+    ]
+    points = np.stack([m.ravel() for m in np.meshgrid(*axes)], axis=1)
+    points = points[body.shape.contains(points)]
+    for later in deck.bodies[number + 1 :]:
+        points = points[~later.shape.contains(points)]
+    if not len(points):
+        raise DeckError(
+            [
+                deck.mistake(
+                    ("bodies", number, "shape"),
+                    "holds no particle: it is smaller than a cell, or later bodies cover it",
+                )
+            ]
+        )
+    return points
+
+
+def _fill(deck: Deck, lattice: Lattice, seeds) -> tuple[tuple[Block, ...], Particles]:
+    """Return blocks of one material and particle size, and their particles sorted by cell."""
+    kinds = sorted({(b.material, b.particles_per_cell) for b in deck.bodies if not b.hole})
+    blocks, parts, start = [], [], 0
+    for material, per_cell in kinds:
+        bodies = [
+            n
+            for n, b in enumerate(deck.bodies)
+            if not b.hole and (b.material, b.particles_per_cell) == (material, per_cell)
+        ]
+        points = np.concatenate([seeds[n] for n in bodies])
+        owner = np.concatenate([np.full(len(seeds[n]), n) for n in bodies])
+        cell = np.floor((points - lattice.lower) / lattice.width).astype(int)
+        order = np.lexsort((points[:, 0], points[:, 1], cell[:, 0], cell[:, 1]))
+        section, half = deck.materials[material], (0.5 / per_cell,) * 2
+        law, shape = _law(section), SHAPES[deck.solver.shape](half)
+        blocks.append(
+            Block(start, start + len(points), law, shape, material, section.density)
+        )
+        volume = np.full(len(points), (lattice.width / per_cell) ** 2 * deck.thickness)
+        parts.append((points[order], owner[order], section.density * volume, volume))
+        start += len(points)
+    particles = particles_at(*(np.concatenate(column) for column in zip(*parts, strict=True)))
+    for number, body in enumerate(deck.bodies):
+        _set_moving(particles, number, body)
+    return tuple(blocks), particles
+
+
+def _set_moving(particles: Particles, number: int, body) -> None:
+    """Give the particles of a body their initial velocity."""
+    mine = particles.body == number
+    if body.hole or not mine.any():
+        return
+    centre = particles.mass[mine] @ particles.position[mine] / particles.mass[mine].sum()
+    arm = particles.position[mine] - centre
+    spin = body.angular_velocity * np.stack([-arm[:, 1], arm[:, 0]], axis=1)
+    particles.velocity[mine] = np.asarray(body.velocity) + spin
+
+
+def _law(section) -> Elastic:
+    return Elastic(section.lame, section.shear)
+
+
+def _update(solver):
+    kinds = {"flip": Flip, "pic": Fmpm, "fmpm": Fmpm, "xpic": Xpic}
+    return kinds[solver.update_name](max(solver.update_order, 1))
+
+
+def _contact(deck: Deck) -> ContactLaws:
+    laws = [deck.contact_of(crack) for crack in deck.cracks]
+    mu = np.array([getattr(law, "mu", 0.0) for law in laws], dtype=float)
+    static = [getattr(law, "mu_static", None) for law in laws]
+    rest = [m if s is None else s for s, m in zip(static, mu, strict=True)]
+    kinds = np.array([LAWS[law.law] for law in laws], dtype=np.int64)
+    return ContactLaws(kinds, mu, np.array(rest, dtype=float))
+
+
+def _paths(deck: Deck, lattice: Lattice) -> Paths:
+    lines = [crack.path(crack.segment) for crack in deck.cracks]
+    return make_paths(
+        lines,
+        ends=[(ENDS[crack.start], ENDS[crack.end]) for crack in deck.cracks],
+        fixed=[crack.motion == "fixed" for crack in deck.cracks],
+        mirror=[(-1, 0)] * len(lines),
+        dim=len(lattice.cells),
+    )

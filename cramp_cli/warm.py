@@ -1,0 +1,55 @@
+"""Compile every kernel once, so that the next run starts at once."""
+
+from contextlib import nullcontext
+from dataclasses import replace
+from pathlib import Path
+
+import yaml
+
+from cramp_cli.build import build
+from cramp_cli.cracks.fields import make_scratch
+from cramp_cli.cracks.tips import sample_tips
+from cramp_cli.deck.deck import check_deck
+from cramp_cli.schema.mistake import Source
+from cramp_cli.state.health import check_health
+from cramp_cli.state.measures import sum_energies
+from cramp_cli.step import step
+
+DECK = """
+cramp: 1
+analysis: plane_strain
+grid: {cell: 1}
+materials: {m: {law: elastic, density: 1, E: 1, nu: 0.3}}
+bodies: [{name: b, material: m, shape: {type: rectangle, lower: [0, 0], upper: [20, 10]}}]
+cracks: [{name: c, points: [[0, 5], [10, 5]], start: edge}]
+boundary:
+  - {where: {x: 20}, symmetry: true}
+  - {where: {y: 0}, fix: [y]}
+loads:
+  - {type: force, body: b, where: {y: 10}, total: [0, 1]}
+  - {type: traction, body: b, where: {y: 10}, traction: [0, 1.0e-3]}
+  - {type: gravity, acceleration: [0, 0]}
+solver: {end_time: 1}
+fracture: {contour: {terms: 2}}
+"""
+SETTINGS = (
+    ("plane_strain", "ugimp", "flip"),
+    ("plane_strain", "ugimp", "fmpm(2)"),
+    ("plane_strain", "ugimp", "xpic(2)"),
+    ("plane_strain", "linear", "flip"),
+    ("plane_stress", "ugimp", "flip"),
+)
+
+
+def run_small_cases() -> None:
+    """Take a step of a small cracked body with every kind of kernel."""
+    for analysis, shape, update in SETTINGS:
+        data = yaml.safe_load(DECK)
+        data["analysis"] = analysis
+        data["solver"] |= {"shape": shape, "update": update}
+        model, state = build(check_deck(Source("warm-up", DECK, data), Path()))
+        scratch = make_scratch(model, state)
+        step(replace(model, dt=1e-3), state, scratch, lambda title: nullcontext())
+        sample_tips(model, state, scratch)
+        sum_energies(state.particles)
+        check_health(model, state)
