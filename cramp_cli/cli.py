@@ -195,9 +195,9 @@ def show(deck: Deck, sets: Sets = None):
 @app.command()
 def schema():
     """Print the JSON Schema of a deck, for editors."""
-    from cramp_cli.deck.deck import Deck
+    from cramp_cli.deck.json_schema import deck_schema
 
-    print(json.dumps(Deck.model_json_schema(), indent=2))
+    print(json.dumps(deck_schema(), indent=2))
 
 
 @app.command()

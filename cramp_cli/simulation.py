@@ -17,7 +17,9 @@ from cramp_cli.transfer.sums import locate_particles
 
 HEALTH_EVERY = 20  # steps
 ENERGY_WARNING, ENERGY_STOP = 0.01, 0.10
-SETTLED = 50  # steps after which the energy balance is judged: the first loads act on a body at rest
+SETTLED = (
+    50  # steps after which the energy balance is judged: the first loads act on a body at rest
+)
 
 
 class Due:
@@ -126,7 +128,9 @@ def simulate(deck, model, state, outputs, reporter, *, profile=False) -> Summary
     if profile:
         reporter.message("info", run.watch.table())
     work = state.step * len(state.particles.mass)
-    return Summary(state.step, state.time, wall, run.tips, run.books.error, work / wall if wall else None)
+    return Summary(
+        state.step, state.time, wall, run.tips, run.books.error, work / wall if wall else None
+    )
 
 
 class _Run:
@@ -221,9 +225,9 @@ class _Run:
 def _facts(model, state) -> dict:
     """Return what a user may want to check before the run."""
     return {
-        "cells": " x ".join(str(n) for n in model.lattice.cells) + f" of {model.lattice.width:.4g} m",
+        "cells": " x ".join(str(n) for n in model.lattice.cells)
+        + f" of {model.lattice.width:.4g} m",
         "particles": len(state.particles.mass),
         "cracks": f"{state.paths.crack_count} with {len(state.paths.point)} points",
         "time step": f"{model.dt:.6g} s, {int(np.ceil(model.end_time / model.dt))} steps",
     }
-

@@ -93,12 +93,20 @@ class Conditions:
 def meet_rows(conditions, scratch, width) -> None:
     """Find which rows every condition acts on in this step."""
     if scratch.held is None:
-        scratch.held = [[np.zeros(3 * len(h.held.node) + 8, dtype=np.int64), 0] for h in conditions.holds]
+        scratch.held = [
+            [np.zeros(3 * len(h.held.node) + 8, dtype=np.int64), 0] for h in conditions.holds
+        ]
         scratch.free = [np.zeros(len(p.mirror.on), dtype=np.bool_) for p in conditions.mirrors]
     for hold, entry in zip(conditions.holds, scratch.held, strict=True):
         held = hold.held
         entry[1] = find_held_rows(
-            entry[0], scratch.rows, scratch.grid.mass, held.node, held.inside, held.lower, held.upper
+            entry[0],
+            scratch.rows,
+            scratch.grid.mass,
+            held.node,
+            held.inside,
+            held.lower,
+            held.upper,
         )
     for plane, free in zip(conditions.mirrors, scratch.free, strict=True):
         m, segments = plane.mirror, scratch.segments

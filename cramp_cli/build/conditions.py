@@ -26,9 +26,11 @@ def build_conditions(deck, lattice, particles, blocks, paths) -> tuple[Condition
     for number, boundary in enumerate(deck.boundary):
         builder.add_boundary(number, boundary)
     for number, load in enumerate(deck.loads):
-        {"force": builder.add_force, "traction": builder.add_traction, "gravity": builder.add_gravity}[
-            load.type
-        ](number, load)
+        {
+            "force": builder.add_force,
+            "traction": builder.add_traction,
+            "gravity": builder.add_gravity,
+        }[load.type](number, load)
     if builder.mistakes:
         raise DeckError(builder.mistakes)
     conditions = Conditions(
@@ -93,7 +95,9 @@ class _Builder:
             return
         line = round((at - lattice.lower[axis]) / lattice.width)
         if not 1 <= line < lattice.cells[axis]:
-            message = "needs a row of cells on either side of a symmetry plane; make the grid larger"
+            message = (
+                "needs a row of cells on either side of a symmetry plane; make the grid larger"
+            )
             self.wrong(("boundary", number, "where"), message)
             return
         other = 1 - axis
@@ -121,7 +125,9 @@ class _Builder:
             line = self.paths.point[self.paths.crack(c)]
             if np.all(np.abs(line[:, axis] - at) <= self.tolerance):
                 if found >= 0:
-                    self.wrong(("boundary", number, "where"), "only one crack may lie on a symmetry plane")
+                    self.wrong(
+                        ("boundary", number, "where"), "only one crack may lie on a symmetry plane"
+                    )
                 found = c
                 along = line[-1, 1 - axis] - line[0, 1 - axis]
                 left = np.sign(along) * (1 if axis == 1 else -1)  # above the crack is +axis
@@ -154,7 +160,9 @@ class _Builder:
             on_face = np.abs(np.abs(offset) - half) <= 0.1 * half
             mine, sign = mine[on_face], np.sign(offset[on_face])
             if len(set(sign.tolist())) > 1:
-                self.wrong(("loads", number, "where"), f"lies inside body {load.body}; give its face")
+                self.wrong(
+                    ("loads", number, "where"), f"lies inside body {load.body}; give its face"
+                )
             elif len(mine):
                 found += len(mine)
                 faces = self._faces(mine, block, axis, sign[0], load)

@@ -89,7 +89,8 @@ def seed_body(deck: Deck, lattice: Lattice, number: int) -> np.ndarray:
     first = np.floor((low - lattice.lower) / width - ON_PLANE).astype(int)
     last = np.ceil((high - lattice.lower) / width + ON_PLANE).astype(int)
     axes = [
-        lattice.lower[d] + width / per_cell * (np.arange(per_cell * first[d], per_cell * last[d]) + 0.5)
+        lattice.lower[d]
+        + width / per_cell * (np.arange(per_cell * first[d], per_cell * last[d]) + 0.5)
         for d in range(2)
     ]
     points = np.stack([m.ravel() for m in np.meshgrid(*axes)], axis=1)
@@ -124,9 +125,7 @@ def _fill(deck: Deck, lattice: Lattice, seeds) -> tuple[tuple[Block, ...], Parti
         order = np.lexsort((points[:, 0], points[:, 1], cell[:, 0], cell[:, 1]))
         section, half = deck.materials[material], (0.5 / per_cell,) * 2
         law, shape = _law(section), SHAPES[deck.solver.shape](half)
-        blocks.append(
-            Block(start, start + len(points), law, shape, material, section.density)
-        )
+        blocks.append(Block(start, start + len(points), law, shape, material, section.density))
         volume = np.full(len(points), (lattice.width / per_cell) ** 2 * deck.thickness)
         parts.append((points[order], owner[order], section.density * volume, volume))
         start += len(points)

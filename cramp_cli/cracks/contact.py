@@ -149,7 +149,17 @@ def touch_across(grid, rows, laws, strides, dt, stage, row, slot):
         vector(strides, rows.displacement, a),
     )
     state, friction = touch_pair(
-        grid, a, b, n, dot(apart, n), kind, laws.mu[crack], laws.mu_static[crack], strides, dt, stage
+        grid,
+        a,
+        b,
+        n,
+        dot(apart, n),
+        kind,
+        laws.mu[crack],
+        laws.mu_static[crack],
+        strides,
+        dt,
+        stage,
     )
     rows.touching[e, slot] = state
     return friction if stage == UPDATE else 0.0

@@ -139,7 +139,15 @@ class _Walk:
         sums = np.zeros((box.wide * box.high + int(scratch.rows.count[0]), 10))
         for b in model.blocks:
             sum_fields(
-                sums, state.particles, scratch.stencil, b.shape, model.strides, box, self.nodes, b.lo, b.hi
+                sums,
+                state.particles,
+                scratch.stencil,
+                b.shape,
+                model.strides,
+                box,
+                self.nodes,
+                b.lo,
+                b.hi,
             )
         self.mass = sums[:, 0].copy()
         self.fields = sums / np.where(self.mass > 0.0, self.mass, 1.0)[:, None]

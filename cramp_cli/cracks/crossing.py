@@ -142,10 +142,20 @@ def list_segments(segments, paths, cells, width, lower, strides, zone_growth):
     for s in range(count - 1, -1, -1):  # pushed to the front, so that lists ascend
         for grown in (1, zone_growth):
             i0, i1 = cell_range(
-                min(line[s, 0], line[s, 2]), max(line[s, 0], line[s, 2]), lower[0], width, cells[0], grown
+                min(line[s, 0], line[s, 2]),
+                max(line[s, 0], line[s, 2]),
+                lower[0],
+                width,
+                cells[0],
+                grown,
             )
             j0, j1 = cell_range(
-                min(line[s, 1], line[s, 3]), max(line[s, 1], line[s, 3]), lower[1], width, cells[1], grown
+                min(line[s, 1], line[s, 3]),
+                max(line[s, 1], line[s, 3]),
+                lower[1],
+                width,
+                cells[1],
+                grown,
             )
             for j in range(j0, j1 + 1):
                 for i in range(i0, i1 + 1):

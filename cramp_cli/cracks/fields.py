@@ -46,7 +46,13 @@ def _rows_fit(scratch, state, lattice, strides, shape) -> bool:
     """Try once; make room for what did not fit and return False."""
     stencil, rows, segments, dim = scratch.stencil, scratch.rows, scratch.segments, len(strides)
     fits = list_segments(
-        segments, state.paths, lattice.cells, lattice.width, lattice.lower, strides, 2 * support(shape)
+        segments,
+        state.paths,
+        lattice.cells,
+        lattice.width,
+        lattice.lower,
+        strides,
+        2 * support(shape),
     )
     if not fits:
         wanted = 2 * int(segments.used[2])
@@ -60,7 +66,15 @@ def _rows_fit(scratch, state, lattice, strides, shape) -> bool:
     forget_rows(rows)
     position = state.particles.position
     assign_rows(
-        stencil, rows, segments, position, shape, strides, lattice.nodes, lattice.width, lattice.lower
+        stencil,
+        rows,
+        segments,
+        position,
+        shape,
+        strides,
+        lattice.nodes,
+        lattice.width,
+        lattice.lower,
     )
     if rows.count[0] > len(rows.node):
         extra = 2 * int(rows.count[0])

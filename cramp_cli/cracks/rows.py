@@ -138,7 +138,9 @@ def add_normal(rows, row, slot, ends, s):
 
 
 @kernel
-def assign_rows(stencil, rows, segments, position, shape_of_table, strides, nodes_along, width, lower):
+def assign_rows(
+    stencil, rows, segments, position, shape_of_table, strides, nodes_along, width, lower
+):
     """Fill the table of rows of all listed particles; rows too many are counted, not made."""
     listed, table, base, local = stencil.listed, stencil.table, stencil.base, stencil.local
     nodes, ends = len(rows.first), segments.ends

@@ -100,7 +100,9 @@ def _sample(model, state, scratch, tip) -> dict:
         row |= measured
         remarks.append(remark)
     if "contour" in settings.methods:
-        measured, remark = _measure_contour(model, state, scratch, tip, hooke, gravity, normal, slide)
+        measured, remark = _measure_contour(
+            model, state, scratch, tip, hooke, gravity, normal, slide
+        )
         row |= measured
         remarks.append(remark)
     return row | {"status": "; ".join(filter(None, remarks)) or "ok"}
@@ -122,7 +124,9 @@ def _measure_contour(model, state, scratch, tip, hooke, gravity, normal, slide):
 def _measure_domain(model, state, scratch, tip, hooke, gravity):
     paths, settings, width = state.paths, model.fracture, model.lattice.width
     frame = TipFrame(
-        tuple(paths.origin[tip.points[0]].tolist()), tip.direction(paths.origin), tip.direction(paths.point)
+        tuple(paths.origin[tip.points[0]].tolist()),
+        tip.direction(paths.origin),
+        tip.direction(paths.point),
     )
     room, what = _room(model, paths, tip, frame)
     wanted = settings.radii[0] if settings.radii else USUAL * width
@@ -204,7 +208,9 @@ def _room(model, paths, tip, frame) -> tuple[float, str]:
 def _distance(here, line) -> float:
     """Return the distance of a point from a polyline (m)."""
     a, b = line[:-1], line[1:]
-    along_line = np.sum((here - a) * (b - a), axis=1) / np.maximum(np.sum((b - a) ** 2, axis=1), 1e-300)
+    along_line = np.sum((here - a) * (b - a), axis=1) / np.maximum(
+        np.sum((b - a) ** 2, axis=1), 1e-300
+    )
     foot = a + np.clip(along_line, 0.0, 1.0)[:, None] * (b - a)
     return float(np.sqrt(np.min(np.sum((foot - here) ** 2, axis=1))))
 
@@ -219,7 +225,9 @@ def _is_closed(model, scratch, tip, place, radius) -> bool:
     n = int(rows.count[0])
     along_x = lattice.nodes[0]
     node = rows.node[:n]
-    at = np.stack([node % along_x, node // along_x], axis=1) * lattice.width + np.array(lattice.lower)
+    at = np.stack([node % along_x, node // along_x], axis=1) * lattice.width + np.array(
+        lattice.lower
+    )
     near = np.sum((at - place) ** 2, axis=1) < radius**2
     mine = (rows.crack[:n, 0] == tip.crack) & near
     if not mine.any():

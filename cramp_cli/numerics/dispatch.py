@@ -17,7 +17,9 @@ def generic(declaration):
     Bodies are added with ``@name.implement(RecordType)``. They take their arguments by position, so
     every body keeps the declared order.
     """
-    return _dispatched(declaration, type, lambda numba_type: getattr(numba_type, "instance_class", None))
+    return _dispatched(
+        declaration, type, lambda numba_type: getattr(numba_type, "instance_class", None)
+    )
 
 
 def by_length(declaration):

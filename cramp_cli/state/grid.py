@@ -15,7 +15,9 @@ class Grid(NamedTuple):
 
     mass: np.ndarray  # (rows,) kg
     momentum: np.ndarray  # (rows, dim) kg m/s
-    saved: np.ndarray  # (rows, dim) momentum before the boundary conditions of the first strain update
+    saved: (
+        np.ndarray
+    )  # (rows, dim) momentum before the boundary conditions of the first strain update
     force: np.ndarray  # (rows, dim) N
     velocity: np.ndarray  # (rows, dim) m/s
     acceleration: np.ndarray  # (rows, dim) m/s^2
@@ -28,7 +30,9 @@ class Rows(NamedTuple):
     own row), one, or two. Arrays over extra rows start at row number `nodes`.
     """
 
-    count: np.ndarray  # (4,) extra rows in use, nodes with extra rows, wrong-side pairs, third cracks
+    count: (
+        np.ndarray
+    )  # (4,) extra rows in use, nodes with extra rows, wrong-side pairs, third cracks
     first: np.ndarray  # (nodes,) first extra row of a node, or -1
     next: np.ndarray  # (extra,) next extra row of the same node, or -1; ascending in `crack`
     node: np.ndarray  # (extra,) node of an extra row
@@ -36,7 +40,9 @@ class Rows(NamedTuple):
     crack: np.ndarray  # (extra, 2) cracks crossed, ascending, -1 for none
     side: np.ndarray  # (extra, 2) side of the row's particles: +1 above, -1 below the crack
     normal: np.ndarray  # (extra, 2, dim) sum of crossed segments turned from above to below, m
-    touching: np.ndarray  # (extra, 2) what a row does with the row across each crack: open, slide, stick
+    touching: (
+        np.ndarray
+    )  # (extra, 2) what a row does with the row across each crack: open, slide, stick
     displacement: np.ndarray  # (rows, dim) mass-weighted displacement at shared nodes, kg m
     place: np.ndarray  # (rows, dim) mass-weighted position at shared nodes, kg m
 

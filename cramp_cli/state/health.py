@@ -32,7 +32,10 @@ def check_health(model, state) -> None:
     p, what = first_ill(state.particles, model.strides)
     if what == WELL:
         return
-    words = {NOT_A_NUMBER: "has a state that is no number", INVERTED: "is turned inside out (det F <= 0)"}
+    words = {
+        NOT_A_NUMBER: "has a state that is no number",
+        INVERTED: "is turned inside out (det F <= 0)",
+    }
     raise NumericalFailure(
         f"step {state.step}, t = {state.time:.6g} s: {describe(model, state, p)} {words[what]}.\n"
         "Likely causes: the time step (lower solver.cfl), a load too large for the material, or "

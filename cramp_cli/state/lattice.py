@@ -29,6 +29,8 @@ class Lattice(NamedTuple):
 
     def node_positions(self) -> np.ndarray:
         """Return the positions of all nodes, shape (nodes, dimension), in metres."""
-        axes = [low + self.width * np.arange(n) for low, n in zip(self.lower, self.nodes, strict=True)]
+        axes = [
+            low + self.width * np.arange(n) for low, n in zip(self.lower, self.nodes, strict=True)
+        ]
         mesh = np.meshgrid(*axes, indexing="ij")
         return np.stack([m.ravel(order="F") for m in mesh], axis=1)

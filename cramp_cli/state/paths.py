@@ -22,7 +22,9 @@ class Paths(NamedTuple):
     start: np.ndarray  # (cracks + 1,) first point of each crack
     ends: np.ndarray  # (cracks, 2) PLAIN, EDGE or TIP at first and last point
     fixed: np.ndarray  # (cracks,) 1 where the crack does not move
-    mirror: np.ndarray  # (cracks, 2) axis normal to the symmetry plane that holds the crack or -1; body side
+    mirror: (
+        np.ndarray
+    )  # (cracks, 2) axis normal to the symmetry plane that holds the crack or -1; body side
 
     @property
     def crack_count(self) -> int:
@@ -36,7 +38,9 @@ class Paths(NamedTuple):
 
 def make_paths(lines, ends, fixed, mirror, dim: int) -> Paths:
     """Return closed cracks along `lines`, a list of (points, dim) arrays in metres."""
-    points = np.concatenate([np.asarray(line, dtype=float) for line in lines] or [np.zeros((0, dim))])
+    points = np.concatenate(
+        [np.asarray(line, dtype=float) for line in lines] or [np.zeros((0, dim))]
+    )
     return Paths(
         point=points,
         origin=points.copy(),

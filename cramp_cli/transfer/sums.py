@@ -48,7 +48,14 @@ def sum_internal_force(model, state, scratch) -> None:
     width = model.lattice.width
     for b in model.blocks:
         to_grid.sum_internal_force(
-            scratch.grid, state.particles, scratch.stencil, b.shape, model.strides, width, b.lo, b.hi
+            scratch.grid,
+            state.particles,
+            scratch.stencil,
+            b.shape,
+            model.strides,
+            width,
+            b.lo,
+            b.hi,
         )
 
 

@@ -1,0 +1,44 @@
+"""What tests of several folders need: a deck becomes a model, a model takes steps."""
+
+from contextlib import nullcontext
+from pathlib import Path
+
+import yaml
+
+from cramp_cli.build import build
+from cramp_cli.cracks.fields import make_scratch
+from cramp_cli.deck.deck import check_deck
+from cramp_cli.schema.mistake import Source
+from cramp_cli.step import step
+
+
+def read(deck, **overrides):
+    """Return a checked deck from its text or its data; see `build_deck` for the overrides."""
+    data = yaml.safe_load(deck) if isinstance(deck, str) else deck
+    data = merged(data, overrides)
+    return check_deck(Source("test", yaml.safe_dump(data), data), Path())
+
+
+def build_deck(deck, **overrides):
+    """Return model, state and scratch arrays of a deck, given as text or as data.
+
+    Overrides replace sections, or keys within them: `solver={"shape": "linear"}` leaves the other keys
+    of the solver as they are.
+    """
+    model, state = build(read(deck, **overrides))
+    return model, state, make_scratch(model, state)
+
+
+def advance(model, state, scratch, steps):
+    """Take a number of time steps."""
+    for _ in range(steps):
+        step(model, state, scratch, lambda title: nullcontext())
+
+
+def merged(data, changes):
+    """Return nested dictionaries with those of `changes` written over them."""
+    data = dict(data)
+    for key, value in changes.items():
+        both = isinstance(value, dict) and isinstance(data.get(key), dict)
+        data[key] = merged(data[key], value) if both else value
+    return data
