@@ -113,7 +113,7 @@ def meet_rows(conditions, scratch, width) -> None:
         if m.crack >= 0:
             count = segments.used[0]
             find_open_nodes(
-                free, m.axis, m.crack, m.place, segments.ends, segments.crack, count, width
+                free, scratch.rows, m.on, m.axis, m.crack, m.place, segments.ends, segments.crack, count, width
             )
 
 

@@ -41,8 +41,11 @@ def image_row(rows, nodes, row, image, crack):
         return -1
     other = rows.first[image]
     while other >= 0:
-        if rows.crack[other - nodes, 0] == a and rows.crack[other - nodes, 1] == b:
-            return other
+        o = other - nodes
+        if rows.crack[o, 0] == a and rows.crack[o, 1] == b:
+            if rows.side[o, 0] == rows.side[row - nodes, 0]:
+                if rows.side[o, 1] == rows.side[row - nodes, 1]:
+                    return other
         other = rows.next[other - nodes]
     return -1
 
@@ -82,8 +85,8 @@ def reflect_mass(mass, rows, crack, outside, inside):
 
 
 @kernel
-def find_open_nodes(free, mirror_axis, crack, place, ends, owner, count, width):
-    """Mark the nodes of the plane that lie on its crack: there the body is free.
+def find_open_nodes(free, rows, on, mirror_axis, crack, place, ends, owner, count, width):
+    """Mark the nodes of the plane that its crack cuts: there the body is free.
 
     free: (n,) written; ends, owner: segments of all cracks and the crack of each
     """
@@ -103,7 +106,7 @@ def find_open_nodes(free, mirror_axis, crack, place, ends, owner, count, width):
                 )  # fmt: skip
                 if hit != 0 or back != 0:
                     odd = not odd
-        free[i] = odd
+        free[i] = odd and rows.tip_crack[on[i]] != crack
 
 
 @kernel

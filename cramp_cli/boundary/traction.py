@@ -5,8 +5,9 @@ from typing import NamedTuple
 import numpy as np
 
 from cramp_cli.numerics.kernel import kernel
-from cramp_cli.numerics.tensor import dot, plus, vector
+from cramp_cli.numerics.tensor import dot, plus, times, vector
 from cramp_cli.shapes.shape import offsets, point_weights
+from cramp_cli.transfer.to_grid import add
 
 
 class Faces(NamedTuple):
@@ -23,35 +24,48 @@ def add_traction(grid, stencil, faces, shape, strides, factor):
 
     The corner of a particle lies among the nodes of the particle, so its rows are the particle's.
     """
-    force = grid.force
-    base, local, near, table = stencil.base, stencil.local, stencil.near, stencil.table
     particle, corner, load = faces.particle, faces.corner, faces.force
+    base, local, near = stencil.base, stencil.local, stencil.near
+    entries, which, table, share = stencil.entries, stencil.which, stencil.table, stencil.share
     steps = offsets(strides, shape)
     for c in range(len(particle)):
         p = particle[c]
         S = point_weights(plus(vector(strides, local, p), 1.0, vector(strides, corner, c)), shape)
+        f = times(vector(strides, load, c), factor)
         first, line = base[p], near[p]
-        for k in range(len(steps)):
-            row = first + steps[k] if line < 0 else table[line, k]
-            for d in range(len(strides)):
-                force[row, d] += factor * S[k] * load[c, d]
+        if line < 0:
+            for k in range(len(steps)):
+                add(grid.force, first + steps[k], S[k], f)
+        else:
+            for e in range(entries[line]):
+                add(grid.force, table[line, e], share[line, e] * S[which[line, e]], f)
 
 
 @kernel
 def traction_power(grid, stencil, faces, shape, strides):
     """Return the power of the face forces under unit load with the momenta of the grid (W)."""
-    momentum, mass = grid.momentum, grid.mass
-    base, local, near, table = stencil.base, stencil.local, stencil.near, stencil.table
     particle, corner, load = faces.particle, faces.corner, faces.force
+    base, local, near = stencil.base, stencil.local, stencil.near
+    entries, which, table, share = stencil.entries, stencil.which, stencil.table, stencil.share
     steps = offsets(strides, shape)
     power = 0.0
     for c in range(len(particle)):
         p = particle[c]
         S = point_weights(plus(vector(strides, local, p), 1.0, vector(strides, corner, c)), shape)
+        f = vector(strides, load, c)
         first, line = base[p], near[p]
-        for k in range(len(steps)):
-            row = first + steps[k] if line < 0 else table[line, k]
-            if mass[row] > 0.0:
-                p_dot_f = dot(vector(strides, momentum, row), vector(strides, load, c))
-                power += S[k] * p_dot_f / mass[row]
+        if line < 0:
+            for k in range(len(steps)):
+                power += S[k] * dot(row_velocity(strides, grid, first + steps[k]), f)
+        else:
+            for e in range(entries[line]):
+                w = share[line, e] * S[which[line, e]]
+                power += w * dot(row_velocity(strides, grid, table[line, e]), f)
     return power
+
+
+@kernel
+def row_velocity(like, grid, row):
+    """Return p/m of a row, zero without mass."""
+    mass = grid.mass[row]
+    return times(vector(like, grid.momentum, row), 1.0 / mass if mass > 0.0 else 0.0)

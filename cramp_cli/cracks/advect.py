@@ -23,22 +23,29 @@ def side_normal(point, k, first, last):
 def surface_row(rows, segments, crack, side, node, cell, qx, qy, nx, ny, tolerance):
     """Return the row of a node that belongs to one side of a crack at the point q, or -1.
 
-    A row told by this crack decides by its side; without one the line from q to the node does.
+    Where rows of the node are told by this crack they decide: the row of the side, else the one without
+    the crack. Without such rows the line from q to the node does.
     """
-    a, _, _, b, _, _, _ = crossed_cracks(segments, cell, qx, qy, nx, ny, tolerance)
+    a, side_a, _, b, side_b, _, _ = crossed_cracks(segments, cell, qx, qy, nx, ny, tolerance)
+    other, other_side = (b, side_b) if a == crack else (a, side_a)
     nodes = len(rows.first)
-    other = b if a == crack else a
+    known = False
     row = rows.first[node]
     while row >= 0:
         for slot in range(2):
-            if rows.crack[row - nodes, slot] == crack:
-                if rows.side[row - nodes, slot] != side:
-                    return find_row(rows, node, other, -1)
-                if other < 0:
-                    return find_row(rows, node, crack, -1)
-                return find_row(rows, node, min(crack, other), max(crack, other))
+            known = known or rows.crack[row - nodes, slot] == crack
         row = rows.next[row - nodes]
-    return find_row(rows, node, a, b)
+    if known:
+        if other < 0:
+            mine = find_row(rows, node, crack, side, -1, 0)
+        elif crack < other:
+            mine = find_row(rows, node, crack, side, other, other_side)
+        else:
+            mine = find_row(rows, node, other, other_side, crack, side)
+        return mine if mine >= 0 else find_row(rows, node, other, other_side, -1, 0)
+    if rows.tip_crack[node] == crack:
+        return find_row(rows, node, other, other_side, -1, 0)
+    return find_row(rows, node, a, side_a, b, side_b)
 
 
 @kernel

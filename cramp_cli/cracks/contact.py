@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from cramp_cli.cracks.rows import find_row
+from cramp_cli.cracks.rows import row_across
 from cramp_cli.numerics.dispatch import by_length
 from cramp_cli.numerics.kernel import kernel
 from cramp_cli.numerics.tensor import dot, plus, times, vector
@@ -31,20 +31,25 @@ def sum_displacement(rows, particles, stencil, shape, strides, lo, hi):
     """Add mass-weighted displacement and position of particles lo..hi to rows of shared nodes."""
     first, displacement, place = rows.first, rows.displacement, rows.place
     x, X, m = particles.position, particles.origin, particles.mass
-    base, local, near, table = stencil.base, stencil.local, stencil.near, stencil.table
+    base, local, near = stencil.base, stencil.local, stencil.near
+    entries, which, table, share = stencil.entries, stencil.which, stencil.table, stencil.share
     steps = offsets(strides, shape)
     for i in range(stencil.count[1]):
         p = stencil.around[i]
         if p < lo or p >= hi:
             continue
         S = weights(vector(strides, local, p), shape)
-        line = near[p]
-        for k in range(len(steps)):
-            if first[base[p] + steps[k]] >= 0:
-                row = base[p] + steps[k] if line < 0 else table[line, k]
+        start, line = base[p], near[p]
+        count = len(steps) if line < 0 else entries[line]
+        for e in range(count):
+            k, row, w = e, start + steps[e % len(steps)], m[p]
+            if line >= 0:
+                k, row, w = which[line, e], table[line, e], m[p] * share[line, e]
+            if first[start + steps[k]] >= 0:
+                w *= S[k]
                 for d in range(len(strides)):
-                    displacement[row, d] += S[k] * m[p] * (x[p, d] - X[p, d])
-                    place[row, d] += S[k] * m[p] * x[p, d]
+                    displacement[row, d] += w * (x[p, d] - X[p, d])
+                    place[row, d] += w * x[p, d]
 
 
 @by_length
@@ -138,7 +143,7 @@ def touch_across(grid, rows, laws, strides, dt, stage, row, slot):
     kind = laws.kind[crack]
     if kind == IGNORE:
         return 0.0
-    partner = find_row(rows, rows.node[e], rows.crack[e, 1 - slot], -1)
+    partner = row_across(rows, e, slot)
     if partner < 0 or grid.mass[row] <= 0.0 or grid.mass[partner] <= 0.0:
         return 0.0
     a, b = (row, partner) if rows.side[e, slot] > 0 else (partner, row)
@@ -181,7 +186,7 @@ def touch_increment(increment, grid, rows, laws, strides):
             state = rows.touching[e, slot]
             if crack < 0 or state == 0:
                 continue
-            partner = find_row(rows, rows.node[e], rows.crack[e, 1 - slot], -1)
+            partner = row_across(rows, e, slot)
             row = nodes + e
             n = unit_normal(strides, rows.normal, e, slot)
             apart = plus(vector(strides, increment, partner), -1.0, vector(strides, increment, row))

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from cramp_cli.cracks.crossing import ON_CRACK, crosses
-from cramp_cli.cracks.rows import find_row
+from cramp_cli.cracks.rows import crossed_row
 from cramp_cli.numerics.kernel import kernel
 from cramp_cli.numerics.tensor import matrix, product, rotation_of, vector, zero_matrix
 from cramp_cli.shapes.shape import offsets, weights
@@ -43,7 +43,8 @@ def sum_fields(sums, particles, stencil, shape, strides, box, nodes, lo, hi):
     energy density, kinetic energy density. The gradient is R F R^T - 1: it must hold the rotation.
     """
     stress, volume, mass = particles.stress, particles.volume, particles.mass
-    base, local, near, table = stencil.base, stencil.local, stencil.near, stencil.table
+    base, local, near = stencil.base, stencil.local, stencil.near
+    entries, which, table, share = stencil.entries, stencil.which, stencil.table, stencil.share
     steps = offsets(strides, shape)
     like = zero_matrix(strides)
     inside = box.wide * box.high
@@ -58,14 +59,17 @@ def sum_fields(sums, particles, stencil, shape, strides, box, nodes, lo, hi):
         v = vector(strides, particles.velocity, p)
         kinetic = 0.5 * mass[p] / volume[p] * (v[0] * v[0] + v[1] * v[1])
         line = near[p]
-        for k in range(len(steps)):
+        count = len(steps) if line < 0 else entries[line]
+        for e in range(count):
+            k, row, w = e, base[p] + steps[e % len(steps)], mass[p]
+            if line >= 0:
+                k, row, w = which[line, e], table[line, e], mass[p] * share[line, e]
             node = base[p] + steps[k]
             i, j = node % strides[1] - box.i, node // strides[1] - box.j
             if i < 0 or j < 0 or i >= box.wide or j >= box.high:
                 continue
-            row = node if line < 0 else table[line, k]
             to = i + j * box.wide if row < nodes else inside + row - nodes
-            w = S[k] * mass[p]
+            w *= S[k]
             sums[to, 0] += w
             sums[to, 1] += w * (H[0] - 1.0)
             sums[to, 2] += w * H[1]
@@ -221,8 +225,8 @@ class _Walk:
 
     def _across(self, at):
         """Fields of the other side of the crack at a node; zero where nobody is."""
-        row = find_row(self.scratch.rows, at[0] + at[1] * self.model.strides[1], self.crack, -1)
-        if row < self.nodes:
+        row = crossed_row(self.scratch.rows, at[0] + at[1] * self.model.strides[1], self.crack)
+        if row < 0:
             return np.zeros(self.fields.shape[1])
         return self.fields[self.box.wide * self.box.high + row - self.nodes]
 
@@ -233,9 +237,9 @@ class _Walk:
         n = [low + lattice.width * c for low, c in zip(lattice.lower, there, strict=True)]
         found = []
         for s in range(int(segments.used[0])):
-            if crosses(segments.ends, s, *p, *n, ON_CRACK * lattice.width):
+            if crosses(segments.real, s, *p, *n, ON_CRACK * lattice.width):
                 if segments.crack[s] == self.crack:
-                    found.append(_fraction(p, n, segments.ends[s]))
+                    found.append(_fraction(p, n, segments.real[s]))
                 else:
                     self.other_cracks += 1
         return found[0] if len(found) % 2 else None

@@ -21,7 +21,8 @@ EXTENSION = 4.0  # an edge end is carried on by this many segment lengths
 class Segments(NamedTuple):
     """Segments of all cracks, with edge ends carried on into free space, and the cells they touch."""
 
-    ends: np.ndarray  # (segments, 4) x, y of both ends (m)
+    ends: np.ndarray  # (segments, 4) x, y of both ends (m), tips carried on
+    real: np.ndarray  # (segments, 4) the same with tips where they are
     crack: np.ndarray  # (segments,) crack of each segment, ascending
     head: np.ndarray  # (nodes,) first entry of the list of a cell (by its lowest node), or -1
     item: np.ndarray  # (entries,) segment of an entry
@@ -34,6 +35,7 @@ def make_segments(node_count: int, segment_count: int, entries: int) -> Segments
     """Return empty lists."""
     return Segments(
         ends=np.zeros((segment_count, 4)),
+        real=np.zeros((segment_count, 4)),
         crack=np.zeros(segment_count, dtype=np.int64),
         head=np.full(node_count, -1, dtype=np.int64),
         item=np.zeros(entries, dtype=np.int64),
@@ -101,19 +103,27 @@ def crossed_cracks(segments, cell, px, py, nx, ny, tolerance):
 
 
 @kernel
-def lay_out_segments(segments, paths):
-    """Copy the segments of all cracks, edge ends carried on; return their number."""
-    point, start, ends = paths.point, paths.start, paths.ends
-    line, owner = segments.ends, segments.crack
+def lay_out_segments(segments, paths, beyond_tip):
+    """Copy the segments of all cracks, edge ends carried on, and tips by `beyond_tip` (m)."""
+    point, start, kinds = paths.point, paths.start, paths.ends
     n = 0
     for c in range(len(start) - 1):
         last = start[c + 1] - 2
         for k in range(start[c], last + 1):
-            for d in range(2):
-                a, b = point[k, d], point[k + 1, d]
-                line[n, d] = a + EXTENSION * (a - b) if k == start[c] and ends[c, 0] == EDGE else a
-                line[n, 2 + d] = b + EXTENSION * (b - a) if k == last and ends[c, 1] == EDGE else b
-            owner[n] = c
+            dx, dy = point[k + 1, 0] - point[k, 0], point[k + 1, 1] - point[k, 1]
+            size = np.sqrt(dx * dx + dy * dy)
+            for end in range(2):
+                at = k + end
+                outermost = (end == 0 and k == start[c]) or (end == 1 and k == last)
+                edge = outermost and kinds[c, end] == EDGE
+                on = EXTENSION if edge else 0.0
+                on_tip = beyond_tip / size if outermost and not edge else on
+                sign = 2 * end - 1
+                segments.real[n, 2 * end] = point[at, 0] + sign * on * dx
+                segments.real[n, 2 * end + 1] = point[at, 1] + sign * on * dy
+                segments.ends[n, 2 * end] = point[at, 0] + sign * on_tip * dx
+                segments.ends[n, 2 * end + 1] = point[at, 1] + sign * on_tip * dy
+            segments.crack[n] = c
             n += 1
     return n
 
@@ -127,20 +137,20 @@ def cell_range(low, high, lower, width, cells, grown):
 
 
 @kernel
-def list_segments(segments, paths, cells, width, lower, strides, zone_growth):
+def list_segments(segments, paths, cells, width, lower, strides, growth, zone_growth, beyond_tip):
     """Fill the lists of segments per cell; return False if they do not fit (`used[2]` says how many).
 
-    A particle tests the segments within one cell of its own; nodes with several rows can be seen from
-    cells within `zone_growth`.
+    A particle tests the segments within `growth` cells of its own; nodes with several rows can be seen
+    from cells within `zone_growth`.
     """
     head, item, following, zone = segments.head, segments.item, segments.next, segments.zone
     head[:] = -1
     zone[:] = 0
-    count = lay_out_segments(segments, paths)
+    count = lay_out_segments(segments, paths, beyond_tip)
     line = segments.ends
     entries = 0
     for s in range(count - 1, -1, -1):  # pushed to the front, so that lists ascend
-        for grown in (1, zone_growth):
+        for grown in (growth, zone_growth):
             i0, i1 = cell_range(
                 min(line[s, 0], line[s, 2]),
                 max(line[s, 0], line[s, 2]),
@@ -160,7 +170,7 @@ def list_segments(segments, paths, cells, width, lower, strides, zone_growth):
             for j in range(j0, j1 + 1):
                 for i in range(i0, i1 + 1):
                     cell = i * strides[0] + j * strides[1]
-                    if grown != 1:
+                    if grown != growth:
                         zone[cell] = 1
                         continue
                     if entries < len(item):

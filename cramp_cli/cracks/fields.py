@@ -11,10 +11,11 @@ from cramp_cli.cracks.rows import (
     find_particles_near_cracks,
     forget_rows,
 )
+from cramp_cli.cracks.tip_nodes import EXTENSION, mark_tip_nodes
 from cramp_cli.shapes.shape import offsets, support
 from cramp_cli.state.grid import make_grid
 from cramp_cli.state.model import Scratch
-from cramp_cli.state.stencil import make_stencil
+from cramp_cli.state.stencil import make_lists, make_stencil
 
 
 def make_scratch(model, state) -> Scratch:
@@ -37,48 +38,37 @@ def find_rows(model, state, scratch) -> None:
     """Find the rows of all particles near cracks."""
     if not state.paths.crack_count:
         return
-    lattice, strides, shape = model.lattice, model.strides, model.blocks[0].shape
-    while not _rows_fit(scratch, state, lattice, strides, shape):
+    while not _rows_fit(scratch, state, model):
         pass
 
 
-def _rows_fit(scratch, state, lattice, strides, shape) -> bool:
+def _rows_fit(scratch, state, model) -> bool:
     """Try once; make room for what did not fit and return False."""
-    stencil, rows, segments, dim = scratch.stencil, scratch.rows, scratch.segments, len(strides)
-    fits = list_segments(
-        segments,
-        state.paths,
-        lattice.cells,
-        lattice.width,
-        lattice.lower,
-        strides,
-        2 * support(shape),
-    )
-    if not fits:
+    lattice, strides, shape = model.lattice, model.strides, model.blocks[0].shape
+    stencil, rows, segments, tips = scratch.stencil, scratch.rows, scratch.segments, model.tip_nodes
+    grid = (lattice.cells, lattice.width, lattice.lower, strides)
+    blended = tips is not None
+    growth = 2 if blended else 1
+    beyond = EXTENSION * lattice.width if blended else 0.0
+    zone = 2 * support(shape) + growth - 1
+    if not list_segments(segments, state.paths, *grid, growth, zone, beyond):
         wanted = 2 * int(segments.used[2])
         scratch.segments = make_segments(lattice.node_count, len(segments.crack), wanted)
         return False
-    listed = find_particles_near_cracks(stencil, segments, strides, len(stencil.table))
-    if listed > len(stencil.table):
-        table = np.zeros((listed + listed // 4, stencil.table.shape[1]), dtype=np.int64)
-        scratch.stencil = stencil._replace(table=table)
+    listed = find_particles_near_cracks(stencil, segments, strides, len(stencil.entries))
+    if listed > len(stencil.entries):
+        per_particle = stencil.which.shape[1] // 2
+        scratch.stencil = stencil._replace(**make_lists(per_particle, listed + listed // 4))
         return False
     forget_rows(rows)
-    position = state.particles.position
-    assign_rows(
-        stencil,
-        rows,
-        segments,
-        position,
-        shape,
-        strides,
-        lattice.nodes,
-        lattice.width,
-        lattice.lower,
-    )
+    if blended:
+        mark_tip_nodes(rows, state.paths, segments, *grid, tips.centre, tips.ramp)
+    place = (strides, lattice.nodes, lattice.width, lattice.lower)
+    assign_rows(stencil, rows, segments, state.particles.position, shape, *place)
     if rows.count[0] > len(rows.node):
-        extra = 2 * int(rows.count[0])
-        scratch.grid, scratch.rows = make_grid(lattice.node_count, dim, extra)
+        scratch.grid, scratch.rows = make_grid(
+            lattice.node_count, len(strides), 2 * int(rows.count[0])
+        )
         return False
     return True
 

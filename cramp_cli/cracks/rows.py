@@ -1,8 +1,10 @@
 """Give every particle-node pair its row: one velocity field for each side of the cracks.
 
-A row of a node is told by the cracks that the lines from its particles cross, so the result does not
-depend on the order of particles, any number of cracks may meet at a node, and contact acts between
-rows that differ by exactly one crack.
+A row of a node is told by the cracks that the lines from its particles cross and the sides they come
+from, so the result does not depend on the order of particles, any number of cracks may meet at a node,
+and contact acts between rows that differ by exactly one crack. Beside a tip a node may be part cut
+(tip_nodes.py): then a particle gives a share of its weight to the row of its side and the rest to the
+row that both sides share.
 """
 
 import numpy as np
@@ -45,40 +47,73 @@ def forget_rows(rows):
     """Remove all extra rows."""
     for i in range(rows.count[1]):
         rows.first[rows.shared[i]] = -1
-    rows.count[:] = 0
+    rows.count[:4] = 0
 
 
 @kernel
-def find_row(rows, node, a, b):
-    """Return the row of `node` reached across cracks a and b (-1 for none), or -1 if there is none."""
+def find_row(rows, node, a, side_a, b, side_b):
+    """Return the row of `node` across cracks a and b (-1 for none) from the given sides, or -1."""
     if a < 0:
         return node
     nodes = len(rows.first)
     row = rows.first[node]
     while row >= 0:
-        if rows.crack[row - nodes, 0] == a and rows.crack[row - nodes, 1] == b:
+        e = row - nodes
+        if rows.crack[e, 0] == a and rows.crack[e, 1] == b:
+            if rows.side[e, 0] == side_a and (b < 0 or rows.side[e, 1] == side_b):
+                return row
+        row = rows.next[e]
+    return -1
+
+
+@kernel
+def row_across(rows, e, slot):
+    """Return the row on the other side of the crack in `slot` of extra row `e`, or -1.
+
+    It is the row that the same cracks tell from the other side, else the one without this crack.
+    """
+    node, other, other_side = rows.node[e], rows.crack[e, 1 - slot], rows.side[e, 1 - slot]
+    crack, side = rows.crack[e, slot], rows.side[e, slot]
+    if other < 0:
+        facing = find_row(rows, node, crack, -side, -1, 0)
+    elif slot == 0:
+        facing = find_row(rows, node, crack, -side, other, other_side)
+    else:
+        facing = find_row(rows, node, other, other_side, crack, -side)
+    return facing if facing >= 0 else find_row(rows, node, other, other_side, -1, 0)
+
+
+@kernel
+def crossed_row(rows, node, crack):
+    """Return the row of `node` told by one crack alone, or -1."""
+    nodes = len(rows.first)
+    row = rows.first[node]
+    while row >= 0:
+        if rows.crack[row - nodes, 0] == crack and rows.crack[row - nodes, 1] < 0:
             return row
         row = rows.next[row - nodes]
     return -1
 
 
 @kernel
-def add_row(rows, node, a, b):
-    """Add a row to `node`, keeping its rows in ascending order of cracks; return it, or -1 if full."""
+def add_row(rows, node, a, side_a, b, side_b):
+    """Add a row to `node`, keeping its rows in ascending order of cracks and sides.
+
+    returns: the row, or -1 when there is no room
+    """
     nodes, e = len(rows.first), rows.count[0]
-    if e >= len(rows.node):
-        rows.count[0] += 1
-        return -1
     rows.count[0] += 1
+    if e >= len(rows.node):
+        return -1
     if rows.first[node] < 0:
         rows.shared[rows.count[1]] = node
         rows.count[1] += 1
     rows.node[e], rows.crack[e, 0], rows.crack[e, 1] = node, a, b
-    rows.side[e, :] = 0
+    rows.side[e, 0], rows.side[e, 1] = side_a, side_b
     rows.normal[e, :, :] = 0.0
     rows.touching[e, :] = 0
     before, after = -1, rows.first[node]
-    while after >= 0 and (rows.crack[after - nodes, 0], rows.crack[after - nodes, 1]) < (a, b):
+    while after >= 0 and _comes_first(rows, after - nodes, a, side_a, b, side_b):
         before, after = after, rows.next[after - nodes]
     rows.next[e] = after
     if before < 0:
@@ -89,88 +124,129 @@ def add_row(rows, node, a, b):
 
 
 @kernel
+def _comes_first(rows, e, a, side_a, b, side_b):
+    old = (rows.crack[e, 0], rows.crack[e, 1], rows.side[e, 0], rows.side[e, 1])
+    return old < (a, b, side_a, side_b)
+
+
+@kernel
 def join_row(rows, node, a, side_a, b, side_b):
     """Return the row of a pair that crosses cracks a and b from the given sides.
 
     A pair that comes from the wrong side of a crack (a crack folded within a cell) is counted and kept
-    in the row of the other crack, or in the node's own.
+    without that crack. At a node beside a tip both sides have rows, and none is wrong.
     """
-    nodes = len(rows.first)
     if a < 0:
         return node
-    row = find_row(rows, node, a, b)
-    if row < 0:
-        row = add_row(rows, node, a, b)
-        if row >= 0:
-            rows.side[row - nodes, 0], rows.side[row - nodes, 1] = side_a, side_b
+    row = find_row(rows, node, a, side_a, b, side_b)
+    if row >= 0:
         return row
-    wrong_a = rows.side[row - nodes, 0] != side_a
-    wrong_b = b >= 0 and rows.side[row - nodes, 1] != side_b
+    wrong_a = _is_wrong(rows, node, a, side_a)
+    wrong_b = b >= 0 and _is_wrong(rows, node, b, side_b)
     if not wrong_a and not wrong_b:
-        return row
+        return add_row(rows, node, a, side_a, b, side_b)
     rows.count[2] += 1
-    if b >= 0 and wrong_a and not wrong_b:
-        return join_single(rows, node, b, side_b)
-    if b >= 0 and wrong_b and not wrong_a:
-        return join_single(rows, node, a, side_a)
+    if wrong_a and not wrong_b and b >= 0:
+        return _join_single(rows, node, b, side_b)
+    if wrong_b and not wrong_a:
+        return _join_single(rows, node, a, side_a)
     return node
 
 
 @kernel
-def join_single(rows, node, a, side_a):
-    """Return the row across crack a alone, added if need be; the node's own row on a wrong side."""
-    row = find_row(rows, node, a, -1)
-    if row < 0:
-        row = add_row(rows, node, a, -1)
-        if row >= 0:
-            rows.side[row - len(rows.first), 0] = side_a
-    elif rows.side[row - len(rows.first), 0] != side_a:
-        return node
-    return row
+def _join_single(rows, node, a, side_a):
+    row = find_row(rows, node, a, side_a, -1, 0)
+    return row if row >= 0 else add_row(rows, node, a, side_a, -1, 0)
 
 
 @kernel
-def add_normal(rows, row, slot, ends, s):
-    """Add segment `s`, turned from above to below, to the normal of a row."""
+def _is_wrong(rows, node, crack, side):
+    """Return whether the rows of a node know this crack from the other side only."""
+    if rows.tip_crack[node] == crack:
+        return False
+    nodes = len(rows.first)
+    row = rows.first[node]
+    while row >= 0:
+        for slot in range(2):
+            if rows.crack[row - nodes, slot] == crack and rows.side[row - nodes, slot] != side:
+                return True
+        row = rows.next[row - nodes]
+    return False
+
+
+@kernel
+def add_normal(rows, row, crack, ends, s):
+    """Add segment `s` of a crack, turned from above to below, to the normals of a row."""
     e = row - len(rows.first)
-    rows.normal[e, slot, 0] += ends[s, 3] - ends[s, 1]
-    rows.normal[e, slot, 1] += ends[s, 0] - ends[s, 2]
+    for slot in range(2):
+        if e >= 0 and s >= 0 and rows.crack[e, slot] == crack:
+            rows.normal[e, slot, 0] += ends[s, 3] - ends[s, 1]
+            rows.normal[e, slot, 1] += ends[s, 0] - ends[s, 2]
 
 
 @kernel
-def assign_rows(
-    stencil, rows, segments, position, shape_of_table, strides, nodes_along, width, lower
-):
-    """Fill the table of rows of all listed particles; rows too many are counted, not made."""
-    listed, table, base, local = stencil.listed, stencil.table, stencil.base, stencil.local
-    nodes, ends = len(rows.first), segments.ends
-    steps = offsets(strides, shape_of_table)
-    side = len(node_steps(shape_of_table, 1))
-    tolerance = ON_CRACK * width
+def add_entry(stencil, line, k, row, share):
+    """Add an entry to the list of a particle."""
+    e = stencil.entries[line]
+    stencil.which[line, e], stencil.table[line, e], stencil.share[line, e] = k, max(row, 0), share
+    stencil.entries[line] = e + 1
+
+
+@kernel
+def give_rows(stencil, rows, ends, line, k, node, crossed):
+    """Give the pair of a particle and its node `k` one row, or two where the node is part cut."""
+    a, side_a, seg_a, b, side_b, seg_b, more = crossed
+    rows.count[3] += more
+    c = rows.tip_crack[node]
+    if c < 0:
+        row = join_row(rows, node, a, side_a, b, side_b)
+        add_normal(rows, row, a, ends, seg_a)
+        add_normal(rows, row, b, ends, seg_b)
+        add_entry(stencil, line, k, row, 1.0)
+        return
+    side, seg = rows.tip_side[node], rows.tip_segment[node]
+    if a == c:
+        side, seg = side_a, seg_a
+        a, side_a, seg_a, b, side_b, seg_b = b, side_b, seg_b, -1, 0, -1
+    elif b == c:
+        side, seg = side_b, seg_b
+        b, side_b, seg_b = -1, 0, -1
+    whole = 1.0 - rows.cut[node]
+    if whole > 0.0:
+        row = join_row(rows, node, a, side_a, b, side_b)
+        add_normal(rows, row, a, ends, seg_a)
+        add_normal(rows, row, b, ends, seg_b)
+        add_entry(stencil, line, k, row, whole)
+    if whole < 1.0:
+        rows.count[3] += b >= 0
+        if a < 0 or c < a:
+            row = join_row(rows, node, c, side, a, side_a)
+        else:
+            row = join_row(rows, node, a, side_a, c, side)
+        add_normal(rows, row, c, ends, seg)
+        add_normal(rows, row, a, ends, seg_a)
+        add_entry(stencil, line, k, row, 1.0 - whole)
+
+
+@kernel
+def assign_rows(stencil, rows, segments, position, shape, strides, nodes_along, width, lower):
+    """List the rows of all particles near cracks; rows too many are counted, not made."""
+    listed, base, local = stencil.listed, stencil.base, stencil.local
+    steps = offsets(strides, shape)
+    side = len(node_steps(shape, 1))
     for line in range(stencil.count[0]):
         p = listed[line]
+        stencil.entries[line] = 0
         cell = base[p]
         for d in range(len(strides)):
             cell += int(np.floor(local[p, d])) * strides[d]
         x = vector(strides, position, p)
         corner = (base[p] % nodes_along[0], base[p] // strides[1])
         for k in range(len(steps)):
-            node = base[p] + steps[k]
             nx = lower[0] + width * (corner[0] + k % side)
             ny = lower[1] + width * (corner[1] + k // side)
-            a, side_a, seg_a, b, side_b, seg_b, more = crossed_cracks(
-                segments, cell, x[0], x[1], nx, ny, tolerance
-            )
-            rows.count[3] += more
-            row = join_row(rows, node, a, side_a, b, side_b)
-            table[line, k] = max(row, 0)
-            if row >= nodes:
-                if rows.crack[row - nodes, 0] == a:
-                    add_normal(rows, row, 0, ends, seg_a)
-                if rows.crack[row - nodes, 0] == b and b >= 0:
-                    add_normal(rows, row, 0, ends, seg_b)
-                if rows.crack[row - nodes, 1] == b and b >= 0:
-                    add_normal(rows, row, 1, ends, seg_b)
+            crossed = crossed_cracks(segments, cell, x[0], x[1], nx, ny, ON_CRACK * width)
+            give_rows(stencil, rows, segments.ends, line, k, base[p] + steps[k], crossed)
 
 
 @kernel

@@ -40,6 +40,13 @@ SCHEMES = {
 }
 
 
+class TipNodes(NamedTuple):
+    """How nodes beside a tip pass from whole to cut."""
+
+    centre: float  # a node is half cut when the tip is this far behind it (cells)
+    ramp: float  # cells of the tip's way from whole to cut
+
+
 class Books(NamedTuple):
     """Energies that have passed the border of the solid so far; arrays of one number (J)."""
 
@@ -64,6 +71,7 @@ class Model:
     contact: Any  # ContactLaws
     conditions: Any  # boundary conditions and loads
     fracture: Any = None  # how J and K are evaluated
+    tip_nodes: TipNodes | None = None  # None: cut at once, by the line test alone (the paper)
     strides: tuple = field(init=False)
 
     def __post_init__(self) -> None:

@@ -1,4 +1,4 @@
-"""Which rows a particle sees."""
+"""Which rows a particle sees, and with what share of its weight."""
 
 from typing import NamedTuple
 
@@ -6,12 +6,20 @@ import numpy as np
 
 
 class Stencil(NamedTuple):
-    """Place of every particle in the grid at the start of the step, kept for the whole step."""
+    """Place of every particle in the grid at the start of the step, kept for the whole step.
+
+    Far from cracks the rows of a particle are its nodes. A particle near a crack has a list of entries:
+    a node, the row of that node, and the share of the weight that goes to this row (1 except at nodes
+    beside a tip, which are part cut, part whole).
+    """
 
     base: np.ndarray  # (n,) lowest node of the particle's nodes
     local: np.ndarray  # (n, dim) position from the base node, in cells
-    near: np.ndarray  # (n,) line of `table`, or -1 where the rows are the nodes themselves
-    table: np.ndarray  # (listed, nodes per particle) rows of a particle near a crack
+    near: np.ndarray  # (n,) line of the lists of entries, or -1 where the rows are the nodes
+    entries: np.ndarray  # (listed,) number of entries of a listed particle
+    which: np.ndarray  # (listed, 2 * nodes per particle) node of an entry, in the particle's order
+    table: np.ndarray  # (listed, 2 * nodes per particle) row of an entry
+    share: np.ndarray  # (listed, 2 * nodes per particle) share of the weight that the row takes
     listed: np.ndarray  # (n,) particles near a crack
     around: np.ndarray  # (n,) particles that may see a node with more than one row
     count: np.ndarray  # (2,) how many of `listed` and `around` are in use
@@ -23,8 +31,18 @@ def make_stencil(n: int, dim: int, nodes_per_particle: int, listed: int) -> Sten
         base=np.zeros(n, dtype=np.int64),
         local=np.zeros((n, dim)),
         near=np.full(n, -1, dtype=np.int64),
-        table=np.zeros((listed, nodes_per_particle), dtype=np.int64),
         listed=np.zeros(n, dtype=np.int64),
         around=np.zeros(n, dtype=np.int64),
         count=np.zeros(2, dtype=np.int64),
+        **make_lists(nodes_per_particle, listed),
     )
+
+
+def make_lists(nodes_per_particle: int, listed: int) -> dict:
+    """Return empty lists of entries for `listed` particles."""
+    return {
+        "entries": np.zeros(listed, dtype=np.int64),
+        "which": np.zeros((listed, 2 * nodes_per_particle), dtype=np.int64),
+        "table": np.zeros((listed, 2 * nodes_per_particle), dtype=np.int64),
+        "share": np.ones((listed, 2 * nodes_per_particle)),
+    }

@@ -31,7 +31,8 @@ def move_particles(particles, grid, stencil, update, shape, strides, damping, dt
     x, v, a = particles.position, particles.velocity, particles.acceleration
     m = particles.mass
     velocity, acceleration = grid.velocity, grid.acceleration
-    base, local, near, table = stencil.base, stencil.local, stencil.near, stencil.table
+    base, local, near = stencil.base, stencil.local, stencil.near
+    entries, which, table, share = stencil.entries, stencil.which, stencil.table, stencil.share
     steps = offsets(strides, shape)
     damped = 0.0
     for p in range(lo, hi):
@@ -39,10 +40,15 @@ def move_particles(particles, grid, stencil, update, shape, strides, damping, dt
         first, line = base[p], near[p]
         u = times(vector(strides, v, p), 0.0)
         Sa = u
-        for k in range(len(steps)):
-            row = first + steps[k] if line < 0 else table[line, k]
-            u = plus(u, S[k], vector(strides, velocity, row))
-            Sa = plus(Sa, S[k], vector(strides, acceleration, row))
+        if line < 0:
+            for k in range(len(steps)):
+                u = plus(u, S[k], vector(strides, velocity, first + steps[k]))
+                Sa = plus(Sa, S[k], vector(strides, acceleration, first + steps[k]))
+        else:
+            for e in range(entries[line]):
+                w, row = share[line, e] * S[which[line, e]], table[line, e]
+                u = plus(u, w, vector(strides, velocity, row))
+                Sa = plus(Sa, w, vector(strides, acceleration, row))
         V = vector(strides, v, p)
         new, mean = moved(update, V, u, Sa, damping[0], damping[1], dt)
         free, _ = moved(update, V, u, Sa, 0.0, 0.0, dt)
@@ -56,27 +62,33 @@ def move_particles(particles, grid, stencil, update, shape, strides, damping, dt
 
 @kernel
 def update_stress(
-    particles, grid, stencil, law, geometry, shape, strides, width, dt, share, fresh, lo, hi
+    particles, grid, stencil, law, geometry, shape, strides, width, dt, part, fresh, lo, hi
 ):
-    """Strain particles lo..hi for share * dt with the velocities of the grid and update their stress.
+    """Strain particles lo..hi for part * dt with the velocities of the grid and update their stress.
 
     fresh: the first strain update of the step; L becomes the average over the updates of the step
     """
     F, stretch, L = particles.F, particles.stretch, particles.L
     stress, work = particles.stress, particles.work
     velocity = grid.velocity
-    base, local, near, table = stencil.base, stencil.local, stencil.near, stencil.table
+    base, local, near = stencil.base, stencil.local, stencil.near
+    entries, which, table, share = stencil.entries, stencil.which, stencil.table, stencil.share
     steps = offsets(strides, shape)
     zero = zero_matrix(strides)
     for p in range(lo, hi):
         G = gradients(vector(strides, local, p), shape)
         first, line = base[p], near[p]
         gradient = zero
-        for k in range(len(steps)):
-            row = first + steps[k] if line < 0 else table[line, k]
-            gradient = add_outer(vector(strides, velocity, row), pick(G, k), gradient)
+        if line < 0:
+            for k in range(len(steps)):
+                v = vector(strides, velocity, first + steps[k])
+                gradient = add_outer(v, pick(G, k), gradient)
+        else:
+            for e in range(entries[line]):
+                v = times(vector(strides, velocity, table[line, e]), share[line, e])
+                gradient = add_outer(v, pick(G, which[line, e]), gradient)
         gradient = scaled(gradient, 1.0 / width)
-        dU = scaled(gradient, share * dt)
+        dU = scaled(gradient, part * dt)
         turned = turn(dU, stress, p)
         strain, new = strained(geometry, law, turned, dU)
         work[p] += work_of(turned, new, strain)
@@ -87,4 +99,4 @@ def update_stress(
         after = product(step, matrix(dU, F, p))
         for c in range(len(dU)):
             F[p, c] = after[c]
-            L[p, c] = share * gradient[c] + (0.0 if fresh else L[p, c])
+            L[p, c] = part * gradient[c] + (0.0 if fresh else L[p, c])

@@ -1,0 +1,173 @@
+"""Properties that every shape function has, and the values of each (algorithm.md 2)."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from cramp_cli.build.model import SHAPES
+from cramp_cli.numerics.tensor import vector
+from cramp_cli.shapes.shape import (
+    along_axis,
+    first_node,
+    gradients,
+    locate,
+    node_steps,
+    offsets,
+    point_weights,
+    support,
+    weights,
+)
+from cramp_cli.shapes.ugimp import UniformGimp
+from cramp_cli.state.lattice import Lattice
+from cramp_cli.state.stencil import make_stencil
+
+HALVES = (0.5, 0.25, 0.125)  # half size of a particle in cells: 1, 2 and 4 particles per cell side
+ALL_SHAPES = pytest.mark.parametrize(
+    "shape",
+    [kind((half,) * 3) for kind in SHAPES.values() for half in HALVES],
+    ids=[f"{name}-{half}" for name in SHAPES for half in HALVES],
+)
+DIMENSIONS = pytest.mark.parametrize("dim", [2, 3])
+LATTICES = {
+    2: Lattice((7, 6), 0.5, (-1.0, 2.0)),
+    3: Lattice((7, 6, 5), 0.5, (-1.0, 2.0, 0.0)),
+}
+ROUND_OFF = 1e-15
+place = st.floats(1.0, 4.0)  # in cells, far enough from the grid's border for every shape
+
+
+def on_axis(shape, x):
+    """Return value and slope of the nodes that a particle at x (cells) sees, by node."""
+    first = first_node(shape, 0, x)
+    values, slopes = along_axis(shape, 0, x - first)
+    nodes = [first + step for step in node_steps(shape, 1)]
+    return {n: (v, s) for n, v, s in zip(nodes, values, slopes, strict=True)}
+
+
+def in_space(shape, lattice, cells):
+    """Return weights, gradients (1/m), node positions (m) and the position (m) of one particle."""
+    dim = len(lattice.cells)
+    x = np.array(lattice.lower) + lattice.width * np.array(cells[:dim])
+    stencil = make_stencil(1, dim, support(shape) ** dim, 1)
+    grid = (lattice.lower, lattice.strides, lattice.nodes, lattice.width)
+    assert locate(stencil, x[None], shape, *grid, 0, 1) == -1
+    local = vector(lattice.strides, stencil.local, 0)
+    nodes = stencil.base[0] + np.array(offsets(lattice.strides, shape))
+    G = np.array(gradients(local, shape)).T / lattice.width
+    return np.array(weights(local, shape)), G, lattice.node_positions()[nodes], x
+
+
+@ALL_SHAPES
+@DIMENSIONS
+@settings(max_examples=25, deadline=None)
+@given(cells=st.tuples(place, place, place))
+def test_a_constant_and_a_linear_field_are_exact(shape, dim, cells):
+    """sum S = 1, sum G = 0, sum S x_i = x, sum x_i G = 1: all of round-off (coordinates below 5)."""
+    S, G, x_i, x = in_space(shape, LATTICES[dim], cells)
+    assert S.sum() == pytest.approx(1.0, abs=10 * ROUND_OFF)
+    np.testing.assert_allclose(G.sum(axis=0), 0.0, atol=20 * ROUND_OFF)
+    np.testing.assert_allclose(S @ x_i, x, atol=50 * ROUND_OFF)
+    np.testing.assert_allclose(x_i.T @ G, np.eye(dim), atol=100 * ROUND_OFF)
+
+
+@ALL_SHAPES
+@settings(max_examples=25, deadline=None)
+@given(x=place)
+def test_weights_are_never_negative(shape, x):
+    assert min(value for value, _ in on_axis(shape, x).values()) >= 0.0
+
+
+@ALL_SHAPES
+@pytest.mark.parametrize("border", np.arange(8, 33) / 8.0)
+def test_no_jump_where_a_particle_meets_other_nodes(shape, border):
+    """A slope is at most 1 per cell; the places are where values change their formula or nodes."""
+    step = 2.0**-30
+    before, after = on_axis(shape, border - step), on_axis(shape, border + step)
+    for node in set(before) | set(after):
+        jump = before.get(node, (0.0, 0.0))[0] - after.get(node, (0.0, 0.0))[0]
+        assert abs(jump) <= 2.0 * step + ROUND_OFF
+
+
+@pytest.mark.parametrize("half", HALVES)
+@pytest.mark.parametrize("border", np.arange(8, 33) / 8.0)
+def test_gimp_slopes_have_no_jump(half, border):
+    """The second derivative is at most 1/half."""
+    step, shape = 2.0**-30, UniformGimp((half,))
+    before, after = on_axis(shape, border - step), on_axis(shape, border + step)
+    for node in set(before) | set(after):
+        jump = before.get(node, (0.0, 0.0))[1] - after.get(node, (0.0, 0.0))[1]
+        assert abs(jump) <= 2.0 * step / half + ROUND_OFF
+
+
+@ALL_SHAPES
+@DIMENSIONS
+def test_gradients_are_differences_of_weights(shape, dim):
+    """Central differences are exact where weights are quadratic; the places avoid changes of formula."""
+    step, lattice = 1e-4, LATTICES[dim]
+    cells = np.array([2.0 + 1 / 16, 1.0 + 5 / 16, 3.0 - 3 / 16])[:dim]
+    _, G, _, _ = in_space(shape, lattice, cells)
+    for d in range(dim):
+        move = step * np.eye(dim)[d]
+        ahead, _, _, x1 = in_space(shape, lattice, cells + move)
+        behind, _, _, x0 = in_space(shape, lattice, cells - move)
+        slope = (ahead - behind) / (x1[d] - x0[d])
+        np.testing.assert_allclose(G[:, d], slope, atol=10 * ROUND_OFF / (step * lattice.width))
+
+
+@pytest.mark.parametrize("half", HALVES)
+@settings(max_examples=50, deadline=None)
+@given(x=place)
+def test_gimp_is_the_mean_of_linear_functions_over_the_particle(half, x):
+    """S = (1/2l) int N, G = (N(x + l) - N(x - l))/2l (Bardenhagen and Kober 2004, box particles).
+
+    N is linear between nodes, so the trapezoidal rule on those pieces is exact.
+    """
+    seen = on_axis(UniformGimp((half,)), x)
+    low, high = x - half, x + half
+    pieces = np.array([low, *np.arange(np.ceil(low), np.ceil(high)), high])
+    for node in range(int(x) - 2, int(x) + 4):
+        N = np.maximum(0.0, 1.0 - np.abs(pieces - node))
+        value, slope = seen.get(node, (0.0, 0.0))
+        assert value == pytest.approx(np.trapezoid(N, pieces) / (2.0 * half), abs=20 * ROUND_OFF)
+        assert slope == pytest.approx((N[-1] - N[0]) / (2.0 * half), abs=40 * ROUND_OFF)
+
+
+@settings(max_examples=50, deadline=None)
+@given(x=place)
+def test_linear_is_the_hat_of_the_nearest_nodes(x):
+    for node, (value, _) in on_axis(SHAPES["linear"]((0.25,)), x).items():
+        assert value == pytest.approx(max(0.0, 1.0 - abs(x - node)), abs=ROUND_OFF)
+
+
+@ALL_SHAPES
+@DIMENSIONS
+@settings(max_examples=25, deadline=None)
+@given(cells=st.tuples(place, place, place), share=st.tuples(*[st.floats(-1.0, 1.0)] * 3))
+def test_a_point_of_a_particle_has_linear_weights_at_its_nodes(shape, dim, cells, share):
+    """A point in the particle's box (the particle itself where it has none): sum S x_i is the point."""
+    lattice = LATTICES[dim]
+    _, _, x_i, x = in_space(shape, lattice, cells)
+    box = shape.half[0] if isinstance(shape, UniformGimp) else 0.0
+    point = x + lattice.width * box * np.array(share[:dim])
+    local = (point - x_i[0]) / lattice.width
+    S = np.array(point_weights(tuple(local.tolist()), shape))
+    hats = np.prod(np.maximum(0.0, 1.0 - np.abs(point - x_i) / lattice.width), axis=1)
+    np.testing.assert_allclose(S, hats, atol=20 * ROUND_OFF)
+    np.testing.assert_allclose(S @ x_i, point, atol=50 * ROUND_OFF)
+
+
+@ALL_SHAPES
+@pytest.mark.parametrize("x", [(0.2, 0.2), (6.9, 3.0), (3.0, -0.1), (3.0, 9.0), (np.nan, 3.0)])
+def test_a_particle_without_all_its_nodes_is_found(shape, x):
+    """Particle 1 of 3; the second half of the places is out of the grid for every shape."""
+    lattice = LATTICES[2]
+    cells = np.array([(3.0, 3.0), x, (2.0, 2.0)])
+    position = np.array(lattice.lower) + lattice.width * cells
+    stencil = make_stencil(3, 2, support(shape) ** 2, 1)
+    grid = (lattice.lower, lattice.strides, lattice.nodes, lattice.width)
+    inside = all(
+        0 <= first_node(shape, d, c) <= lattice.nodes[d] - support(shape)
+        for d, c in enumerate(np.nan_to_num(x, nan=-1.0))
+    )
+    assert locate(stencil, position, shape, *grid, 0, 3) == (-1 if inside else 1)

@@ -1,0 +1,117 @@
+"""Prescribed velocities: which rows are held, and what it takes to hold them."""
+
+import numpy as np
+import pytest
+from support import advance, build_deck
+
+from cramp_cli.boundary.velocity import hold_again, hold_force, hold_momentum, hold_zero
+from cramp_cli.state.grid import make_grid
+
+PLATE = """
+cramp: 1
+analysis: plane_strain
+grid: {cell: 1}
+materials: {m: {law: elastic, density: 2, E: 1, nu: 0}}
+bodies: [{name: plate, material: m, shape: {type: rectangle, lower: [0, 0], upper: [8, 8]}}]
+solver: {end_time: 1, dt: 0.01}
+"""
+HELD = np.array([2, 0])
+
+
+@pytest.fixture
+def grid():
+    grid, _ = make_grid(3, 2, 0)
+    grid.mass[:] = (2.0, 3.0, 0.0)
+    grid.momentum[:, 0] = (1.0, 5.0, 0.0)
+    grid.force[:, 0] = (7.0, 9.0, 0.0)
+    return grid
+
+
+def test_momentum_of_held_rows(grid):
+    hold_momentum(grid.momentum, grid.mass, HELD, 2, 0, 4.0)
+    assert grid.momentum[:, 0].tolist() == [8.0, 5.0, 0.0]
+
+
+def test_force_that_brings_held_rows_to_their_velocity(grid):
+    """p + f dt = m v: f = (2 * 4 - 1)/0.1 = 70, of which 63 come from the boundary.
+
+    Its work is force times the mean velocity (4 + 0.5)/2 times dt: with the other 7 N it is the change of
+    kinetic energy, 16 - 1/4.
+    """
+    reaction, work = hold_force(grid, HELD, 2, 0, 4.0, 0.1)
+    assert grid.force[:, 0] == pytest.approx([70.0, 9.0, 0.0])
+    assert reaction == pytest.approx(63.0)
+    assert work + 7.0 * 2.25 * 0.1 == pytest.approx(16.0 - 0.25)
+
+
+def test_holding_again_after_contact_changes_momentum_and_force_alike(grid):
+    assert hold_again(grid, HELD, 2, 0, 4.0, 0.1) == pytest.approx(70.0)
+    assert grid.momentum[:, 0].tolist() == [8.0, 5.0, 0.0]
+    assert grid.force[:, 0] == pytest.approx([77.0, 9.0, 0.0])
+
+
+def test_higher_orders_leave_held_components_alone(grid):
+    hold_zero(grid.momentum, HELD, 2, 0)
+    assert grid.momentum[:, 0].tolist() == [0.0, 5.0, 0.0]
+
+
+def struck(crack_at, where, per_cell=2, steps=1):
+    """Return model, state, scratch and held rows of a plate with a crack from its left edge, after a step."""
+    crack = {"name": "notch", "points": [[0.0, crack_at], [4.2, crack_at]], "start": "edge"}
+    body = {"name": "plate", "material": "m", "particles_per_cell": per_cell}
+    body["shape"] = {"type": "rectangle", "lower": [0, 0], "upper": [8, 8]}
+    edge = {"name": "punch", "where": where, "velocity": {"x": 1.0}}
+    model, state, scratch = build_deck(PLATE, bodies=[body], cracks=[crack], boundary=[edge])
+    advance(model, state, scratch, steps)
+    rows, count = scratch.held[0]
+    return model, state, scratch, rows[:count]
+
+
+def sides(model, state, scratch, rows, crack_at):
+    """Return for each row whether its particles lie above the crack."""
+    nodes, mass = len(scratch.rows.first), scratch.grid.mass
+    above = []
+    for row in rows:
+        if row < nodes and scratch.rows.first[row] < 0:
+            above.append(model.lattice.node_positions()[row, 1] > crack_at)
+        else:
+            above.append(scratch.rows.place[row, 1] / mass[row] > crack_at)
+    return above
+
+
+@pytest.mark.parametrize("per_cell", [1, 2, 3])
+@pytest.mark.parametrize("crack_at", [4.0, 3.7, 3.5])
+@pytest.mark.parametrize("struck_side", ["below", "above"])
+def test_a_crack_ends_the_struck_edge(crack_at, struck_side, per_cell):
+    """algorithm.md 1.5: the rows of the far side stay free, those of the struck side are held."""
+    span = [-1.0, crack_at] if struck_side == "below" else [crack_at, 9.0]
+    model, state, scratch, rows = struck(crack_at, {"x": 0.0, "y": span}, per_cell)
+    above = sides(model, state, scratch, rows, crack_at)
+    assert set(above) == {struck_side == "above"}
+    lattice, mass = model.lattice, scratch.grid.mass
+    node_of = np.concatenate([np.arange(lattice.node_count), scratch.rows.node])
+    column = np.flatnonzero(
+        (lattice.node_positions()[node_of[: scratch.row_count], 0] == 0.0)
+        & (mass[: scratch.row_count] > 0.0)
+    )
+    mine = np.array(sides(model, state, scratch, column, crack_at)) == (struck_side == "above")
+    assert set(rows.tolist()) >= set(column[mine].tolist())
+
+
+def test_the_far_side_of_a_struck_edge_feels_nothing_at_first():
+    """In one step the motion reaches one row of cells; beyond the crack none."""
+    _, state, scratch, _ = struck(4.0, {"x": 0.0, "y": [-1.0, 4.0]})
+    p = state.particles
+    near = p.origin[:, 0] < 1.0
+    above = p.origin[:, 1] > 4.0
+    assert np.all(p.velocity[near & ~above, 0] > 0.0)
+    assert np.all(p.velocity[near & above] == 0.0)
+
+
+def test_the_reaction_is_the_rate_of_momentum():
+    """A body at rest gets its momentum from the boundary alone (particle momentum = sum of m_i v_i)."""
+    model, state, scratch, _ = struck(4.0, {"x": 0.0, "y": [-1.0, 4.0]})
+    p = state.particles
+    given = state.reactions[0, 0] * model.dt
+    assert given == pytest.approx(p.mass @ p.velocity[:, 0], rel=1e-12)
+    assert given > 0.0
