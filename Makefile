@@ -42,7 +42,9 @@ format: $(READY)  ## put the sources into shape
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 
-docs: $(READY)  ## write the JSON schema of a deck for editors
+docs: $(READY)  ## write docs/decks.md and the JSON schema of a deck for editors
+	$(BIN)/python -c "from cramp_cli.deck import reference as r; print(r.deck_reference(), end='')" \
+	  > docs/decks.md
 	$(BIN)/cramp schema > docs/deck.schema.json
 
 clean:  ## remove what these targets made

@@ -8,6 +8,9 @@ from typing import NamedTuple
 from cramp_cli.output.machine import choose_threads, human_bytes, refuse_too_big
 from cramp_cli.output.tables import facts_text
 
+LARGEST_BUILT = 1.64e9  # bytes that `check` may use: those of five million particles
+NOT_BUILT = "too large to be built by check; what a load or boundary does not meet, run will tell"
+
 
 class RunOptions(NamedTuple):
     """The options of `cramp run`."""
@@ -74,21 +77,27 @@ def load_deck(path: Path, overrides: Sequence[str] = (), strict: bool = False):
 
 
 def check_deck(path: Path, overrides: Sequence[str], strict: bool, report: bool) -> dict:
-    """Return what is wrong with a deck, and on demand what a run of it would take."""
+    """Return what is wrong with a deck, and on demand what a run of it would take.
+
+    The model is built as well, unless it is large: that a load meets nothing shows only there.
+    """
     from cramp_cli.deck.deck import DeckError, read_deck
 
-    answer = {"file": str(path), "valid": False, "mistakes": [], "warnings": []}
+    answer = {"file": str(path), "valid": False, "mistakes": [], "warnings": [], "notes": []}
     try:
         deck = read_deck(str(path), list(overrides))
+        from cramp_cli.build import build, estimate  # late: imports numba
+
+        needs = estimate(deck)
+        if needs["memory_bytes"] > LARGEST_BUILT:
+            answer["notes"].append(f"{path}: {NOT_BUILT}")
+        else:
+            build(deck)
     except DeckError as error:
         return answer | {"mistakes": [str(mistake) for mistake in error.mistakes]}
     warnings = [str(warning) for warning in deck.warnings]
     answer |= {"valid": not (strict and warnings), "warnings": warnings}
-    if report:
-        from cramp_cli.build import estimate  # late: imports numba
-
-        answer["report"] = estimate(deck)
-    return answer
+    return answer | ({"report": needs} if report else {})
 
 
 def say_check(answer: dict) -> None:
@@ -97,6 +106,8 @@ def say_check(answer: dict) -> None:
         say(text)
     for text in answer["warnings"]:
         say(f"warning: {text}")
+    for text in answer["notes"]:
+        say(text)
     if answer["valid"]:
         verdict = f"{answer['file']}: no mistakes"
         print(facts_text(verdict, readable(answer.get("report", {}))))

@@ -1,8 +1,8 @@
 """The velocity of the grid that particles take: p/m, or the higher orders of FMPM and XPIC.
 
 The order k removes the smoothing of k - 1 round trips between grid and particles (Hammerquist and
-Nairn 2017; Nairn and Hammerquist 2021). Prescribed velocities and contact are met by the first order;
-the others do not touch them.
+Nairn 2017; Nairn and Hammerquist 2021). Prescribed velocities and contact are met by the first
+order; the others do not touch them.
 """
 
 import numpy as np

@@ -22,8 +22,8 @@ def read(deck, **overrides):
 def build_deck(deck, **overrides):
     """Return model, state and scratch arrays of a deck, given as text or as data.
 
-    Overrides replace sections, or keys within them: `solver={"shape": "linear"}` leaves the other keys
-    of the solver as they are.
+    Overrides replace sections, or keys within them: `solver={"shape": "linear"}` leaves the other
+    keys of the solver as they are.
     """
     model, state = build(read(deck, **overrides))
     return model, state, make_scratch(model, state)

@@ -113,7 +113,16 @@ def meet_rows(conditions, scratch, width) -> None:
         if m.crack >= 0:
             count = segments.used[0]
             find_open_nodes(
-                free, scratch.rows, m.on, m.axis, m.crack, m.place, segments.ends, segments.crack, count, width
+                free,
+                scratch.rows,
+                m.on,
+                m.axis,
+                m.crack,
+                m.place,
+                segments.ends,
+                segments.crack,
+                count,
+                width,
             )
 
 
@@ -175,7 +184,7 @@ def hold_forces(conditions, scratch, state, time, dt) -> None:
 
 
 def hold_after_contact(conditions, scratch, state, time, dt) -> None:
-    """Impose the prescribed velocities once more, on momenta and forces that contact has changed."""
+    """Impose the velocities once more, on momenta and forces that contact has changed."""
     for hold, (rows, count) in zip(conditions.holds, scratch.held, strict=True):
         speed = hold.value * hold.curve.value(time)
         reaction = hold_again(scratch.grid, rows, count, hold.held.axis, speed, dt)
@@ -184,10 +193,10 @@ def hold_after_contact(conditions, scratch, state, time, dt) -> None:
 
 
 def book_tractions(model, scratch, state, time, duration) -> None:
-    """Book the work of tractions over half a step, with the momenta of the grid at its start or end.
+    """Book the work of tractions over half a step, with the momenta at its start or end.
 
-    With the same velocities as the two strain updates the books close as well as the scheme conserves
-    energy.
+    With the same velocities as the two strain updates the books close as well as the scheme
+    conserves energy.
     """
     for t in model.conditions.tractions:
         power = traction_power(scratch.grid, scratch.stencil, t.faces, t.shape, model.strides)

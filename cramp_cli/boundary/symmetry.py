@@ -1,9 +1,9 @@
 """A symmetry plane: the body goes on as its own mirror image on the other side.
 
 The plane lies on a grid line. Particles near it reach the nodes one row outside (GIMP); their image
-reaches the row inside by the same amount. So the sums of the row outside are added, reflected, to the
-row inside, and the row outside becomes the image of the row inside: with this a half model repeats
-the whole one to round-off.
+reaches the row inside by the same amount. So the sums of the row outside are added, reflected, to
+the row inside, and the row outside becomes the image of the row inside: with this a half model
+repeats the whole one to round-off.
 
 A crack that lies on the plane separates body and image: rows reached through it are free surface,
 and so are the nodes of the plane that lie on it.
@@ -43,9 +43,9 @@ def image_row(rows, nodes, row, image, crack):
     while other >= 0:
         o = other - nodes
         if rows.crack[o, 0] == a and rows.crack[o, 1] == b:
-            if rows.side[o, 0] == rows.side[row - nodes, 0]:
-                if rows.side[o, 1] == rows.side[row - nodes, 1]:
-                    return other
+            same = rows.side[o, 0] == rows.side[row - nodes, 0]
+            if same and rows.side[o, 1] == rows.side[row - nodes, 1]:
+                return other
         other = rows.next[other - nodes]
     return -1
 
@@ -106,7 +106,7 @@ def find_open_nodes(free, rows, on, mirror_axis, crack, place, ends, owner, coun
                 )  # fmt: skip
                 if hit != 0 or back != 0:
                     odd = not odd
-        free[i] = odd and rows.tip_crack[on[i]] != crack
+        free[i] = odd and rows.tip[on[i]] // 2 != crack
 
 
 @kernel

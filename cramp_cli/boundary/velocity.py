@@ -1,7 +1,8 @@
 """Prescribed velocities.
 
-A prescribed velocity belongs to a part of a body's surface, so where a crack meets that part only the
-rows whose particles lie in it are held: the far side of a notch beside a struck edge stays free.
+A prescribed velocity belongs to a part of a body's surface, so where a crack meets that part only
+the rows whose particles lie in it are held: the far side of a notch beside a struck edge stays
+free.
 """
 
 from typing import NamedTuple
@@ -78,7 +79,7 @@ def hold_force(grid, held_rows, count, axis, velocity, dt):
 
 @kernel
 def hold_again(grid, held_rows, count, axis, velocity, dt):
-    """Set p = m v in the held rows and change the forces to match; return the sum of changes (N)."""
+    """Set p = m v in the held rows and the forces to match; return the sum of changes (N)."""
     mass, momentum, force = grid.mass, grid.momentum, grid.force
     reaction = 0.0
     for i in range(count):

@@ -13,6 +13,7 @@ from cramp_cli.boundary.conditions import (
 from cramp_cli.boundary.symmetry import Mirror
 from cramp_cli.boundary.traction import Faces
 from cramp_cli.boundary.velocity import Held
+from cramp_cli.cracks.room import Obstacle
 from cramp_cli.deck.deck import DeckError
 from cramp_cli.shapes.linear import Linear
 
@@ -21,7 +22,7 @@ REACH = 1.5  # cells beside a region in which a node may hold particles of it
 
 
 def build_conditions(deck, lattice, particles, blocks, paths) -> tuple[Conditions, tuple]:
-    """Return all conditions, and the places that spoil a J domain with a word for each."""
+    """Return all conditions, and what spoils a J domain."""
     builder = _Builder(deck, lattice, particles, blocks, paths)
     for number, boundary in enumerate(deck.boundary):
         builder.add_boundary(number, boundary)
@@ -111,7 +112,9 @@ class _Builder:
         crack = self._crack_on_plane(number, axis, at, side)
         mirror = Mirror(axis, on, self.nodes[on], on - step, on + step, crack)
         self.mirrors.append(MirrorPlane(mirror, number))
-        self._spoil(self.nodes[on], "a symmetry plane")
+        self._spoil(self.nodes[on], "a symmetry plane", crack)
+        plane = np.flatnonzero(np.abs(self.nodes[:, axis] - at) <= self.tolerance)
+        self._spoil(self.nodes[np.setdiff1d(plane, on)], "the end of a symmetry plane")
 
     def _body_side(self, axis, at) -> int:
         """Return +1 or -1 for the side of a plane on which all particles lie, 0 if both."""
@@ -129,10 +132,20 @@ class _Builder:
                         ("boundary", number, "where"), "only one crack may lie on a symmetry plane"
                     )
                 found = c
+                self._no_contact(c)
                 along = line[-1, 1 - axis] - line[0, 1 - axis]
                 left = np.sign(along) * (1 if axis == 1 else -1)  # above the crack is +axis
                 self.paths.mirror[c] = axis, int(side * left)
         return found
+
+    def _no_contact(self, crack):
+        """A crack on a symmetry plane has one side only: nothing there could press on it."""
+        section = self.deck.cracks[crack]
+        law = self.deck.contact_of(section).law
+        if law != "ignore":
+            path = ("cracks", crack, "contact") if section.contact else ("cracks", crack)
+            message = f"'{law}' does not act on a symmetry plane: give contact: {{law: ignore}}"
+            self.wrong(path, message)
 
     def add_force(self, number, load):
         """Add forces on the particles of a body."""
@@ -160,10 +173,10 @@ class _Builder:
             on_face = np.abs(np.abs(offset) - half) <= 0.1 * half
             mine, sign = mine[on_face], np.sign(offset[on_face])
             if len(set(sign.tolist())) > 1:
-                self.wrong(
-                    ("loads", number, "where"), f"lies inside body {load.body}; give its face"
-                )
-            elif len(mine):
+                message = f"lies inside body {load.body}; give its face"
+                self.wrong(("loads", number, "where"), message)
+                return
+            if len(mine):
                 found += len(mine)
                 faces = self._faces(mine, block, axis, sign[0], load)
                 self.tractions.append(Traction(faces, block.shape, load.in_time))
@@ -208,12 +221,12 @@ class _Builder:
             inside &= (x >= low - grown) & (x <= high + grown)
         return np.flatnonzero(inside)
 
-    def _spoil(self, places, what):
-        """Note places near which no J domain can lie."""
+    def _spoil(self, places, what, crack=-1):
+        """Note places that no J domain may hold, but that of `crack`."""
         low = self.particles.origin.min(axis=0) - self.lattice.width
         high = self.particles.origin.max(axis=0) + self.lattice.width
         near = np.all((places >= low) & (places <= high), axis=1)
-        self.obstacles.append((places[near], what))
+        self.obstacles.append(Obstacle(places[near], what, crack))
 
 
 def _span(where, axis, tolerance) -> tuple[float, float]:

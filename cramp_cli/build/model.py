@@ -12,13 +12,14 @@ from cramp_cli.materials.law import confined_modulus
 from cramp_cli.shapes.linear import Linear
 from cramp_cli.shapes.ugimp import UniformGimp
 from cramp_cli.state.lattice import Lattice
-from cramp_cli.state.model import SCHEMES, Block, Model, State, no_energy
+from cramp_cli.state.model import SCHEMES, Block, Model, State, TipNodes, no_energy
 from cramp_cli.state.particles import Particles, particles_at
 from cramp_cli.state.paths import EDGE, PLAIN, TIP, Paths, make_paths
 from cramp_cli.transfer.update import Flip, Fmpm, Xpic
 
 GEOMETRIES = {"plane_strain": PlaneStrain, "plane_stress": PlaneStress}
 SHAPES = {"linear": Linear, "ugimp": UniformGimp}
+TIPS = {"smooth": TipNodes(centre=0.06, ramp=1.0), "sharp": None}
 ENDS = {"plain": PLAIN, "edge": EDGE, "tip": TIP}
 ON_PLANE = 1e-6  # cells
 
@@ -46,6 +47,7 @@ def build(deck: Deck) -> tuple[Model, State]:
         crack_names=tuple(crack.name for crack in deck.cracks),
         contact=_contact(deck),
         conditions=conditions,
+        tip_nodes=TIPS[deck.solver.tips],
         fracture=Fracture(
             methods=settings.methods,
             radii=settings.radius or (),
@@ -66,13 +68,14 @@ def build_lattice(deck: Deck) -> Lattice:
 
 def time_step(deck: Deck) -> float:
     """Return the time step (s): the Courant condition of the fastest wave, or the deck's limit."""
-    speeds = [wave_speed(material) for material in deck.materials.values()]
+    used = {body.material for body in deck.bodies if not body.hole}
+    speeds = [wave_speed(deck.materials[name]) for name in used]
     step = deck.solver.cfl * deck.grid.cell / max(speeds)
     return min(step, deck.solver.dt or step)
 
 
 def wave_speed(material) -> float:
-    """Return the dilational wave speed of a material (m/s), that of the solid also in plane stress."""
+    """Return the dilational wave speed (m/s), that of the solid also in plane stress."""
     return float(np.sqrt(confined_modulus(_law(material)) / material.density))
 
 

@@ -23,7 +23,8 @@ def side_normal(point, k, first, last):
 def surface_row(rows, segments, crack, side, node, cell, qx, qy, nx, ny, tolerance):
     """Return the row of a node that belongs to one side of a crack at the point q, or -1.
 
-    Where rows of the node are told by this crack they decide: the row of the side, else the one without
+    Where rows of the node are told by this crack they decide: the row of the side, else the one
+    without
     the crack. Without such rows the line from q to the node does.
     """
     a, side_a, _, b, side_b, _, _ = crossed_cracks(segments, cell, qx, qy, nx, ny, tolerance)
@@ -43,14 +44,14 @@ def surface_row(rows, segments, crack, side, node, cell, qx, qy, nx, ny, toleran
         else:
             mine = find_row(rows, node, other, other_side, crack, side)
         return mine if mine >= 0 else find_row(rows, node, other, other_side, -1, 0)
-    if rows.tip_crack[node] == crack:
+    if rows.tip[node] // 2 == crack:
         return find_row(rows, node, other, other_side, -1, 0)
     return find_row(rows, node, a, side_a, b, side_b)
 
 
 @kernel
 def surface_motion(grid, rows, segments, crack, side, q, x, cells, width, lower, strides):
-    """Return mass seen, velocity and acceleration of one surface at x (mass-weighted linear functions)."""
+    """Return mass seen, velocity and acceleration of one surface at x (linear functions)."""
     mass, velocity, acceleration = grid.mass, grid.velocity, grid.acceleration
     rx, ry = (x[0] - lower[0]) / width, (x[1] - lower[1]) / width
     i0 = min(max(int(np.floor(rx)), 0), cells[0] - 1)
@@ -98,7 +99,7 @@ def surface_step(surface, old, k, seen, v, a, width, dt):
 
 @kernel
 def move_surface(paths, grid, rows, segments, crack, side, k, q, cells, width, lower, strides, dt):
-    """Move point k of one surface with the rows of its side; return whether it moved, and by how much."""
+    """Move point k of one surface with the rows of its side; return whether, and by how much."""
     surface = paths.above if side > 0 else paths.below
     old = paths.above_velocity if side > 0 else paths.below_velocity
     x = (surface[k, 0], surface[k, 1])
@@ -112,8 +113,8 @@ def move_surface(paths, grid, rows, segments, crack, side, k, q, cells, width, l
 def move_cracks(paths, grid, rows, segments, cells, width, lower, strides, dt):
     """Move all surfaces and planes of cracks by one step.
 
-    A side that sees no solid moves with the other one. A crack on a symmetry plane has a body on one
-    side only; the other side is its image, so the plane stays where it is.
+    A side that sees no solid moves with the other one. A crack on a symmetry plane has a body on
+    one side only; the other side is its image, so the plane stays where it is.
     """
     point, above, below = paths.point, paths.above, paths.below
     for c in range(len(paths.start) - 1):

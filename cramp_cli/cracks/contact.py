@@ -1,4 +1,4 @@
-"""Contact between the two sides of a crack, row against row (Nairn 2003, Bardenhagen et al. 2001)."""
+"""Contact between both sides of a crack, row against row (Nairn 2003, Bardenhagen et al. 2001)."""
 
 from typing import NamedTuple
 
@@ -68,8 +68,8 @@ def _(like, normal, e, slot):
 def impulse(kind, mu, mu_static, dp, n, dpn, gap):
     """Return the momentum that side a receives from side b, and whether the sides slide or stick.
 
-    dp: momentum that would bring both to their common velocity; n: unit normal from a to b; dpn: dp.n;
-    gap: opening (m), negative where the sides overlap
+    dp: momentum that would bring both to their common velocity; n: unit normal from a to b
+    dpn: dp.n; gap: opening (m), negative where the sides overlap
     """
     if kind == GLUED:
         return dp, STUCK
@@ -116,7 +116,7 @@ def touch_pair(grid, a, b, normal, gap, kind, mu, mu_static, strides, dt, stage)
 
 @kernel
 def touch(grid, rows, laws, strides, dt, stage):
-    """Contact between all rows of a node that differ by one crack; returns the work of friction (J).
+    """Contact between rows of a node that differ by one crack; return the work of friction (J).
 
     Pairs 0-1, 0-2 come before 1-3, 2-3 (rows of a node ascend by their cracks).
     """

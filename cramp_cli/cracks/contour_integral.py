@@ -1,7 +1,7 @@
 """J on a rectangle of grid lines around a tip, as in the paper (Guo and Nairn 2004; Nairn 2003).
 
-Nodal averages per velocity field, trapezoid rule along the contour, both sides of the crack where it
-crosses, kinetic energy in the line term and, with two terms, the area integral of the inertia.
+Nodal averages per velocity field, trapezoid rule along the contour, both sides of the crack where
+it crosses, kinetic energy in the line term and, with two terms, the area integral of the inertia.
 """
 
 from math import hypot
@@ -11,11 +11,12 @@ import numpy as np
 
 from cramp_cli.cracks.crossing import ON_CRACK, crosses
 from cramp_cli.cracks.rows import crossed_row
+from cramp_cli.materials.law import same_law
 from cramp_cli.numerics.kernel import kernel
 from cramp_cli.numerics.tensor import matrix, product, rotation_of, vector, zero_matrix
 from cramp_cli.shapes.shape import offsets, weights
 
-FULL = 0.75  # a contour node with less of a full cell's mass lies at or beyond the edge of the body
+FULL = 0.75  # a contour node that sees less of a full cell lies at or beyond the edge of the body
 
 
 class Box(NamedTuple):
@@ -28,7 +29,7 @@ class Box(NamedTuple):
 
 
 class Contour(NamedTuple):
-    """What a contour integral says: Jx, Jy (J/m^2) and why it can not be trusted, or an empty text."""
+    """Jx, Jy (J/m^2) and why they can not be trusted, or an empty text."""
 
     Jx: float
     Jy: float
@@ -39,8 +40,8 @@ class Contour(NamedTuple):
 def sum_fields(sums, particles, stencil, shape, strides, box, nodes, lo, hi):
     """Add mass-weighted fields of particles lo..hi to the rows of the nodes in a box.
 
-    sums: (box nodes + extra rows, 10): mass, du_x/dx, du_x/dy, du_y/dx, du_y/dy, stress xx, yy, xy,
-    energy density, kinetic energy density. The gradient is R F R^T - 1: it must hold the rotation.
+    sums: (box nodes + extra rows, 11): mass, du_x/dx, du_x/dy, du_y/dx, du_y/dy, stress xx, yy, xy,
+    energy density, kinetic energy density, and volume over mass. The gradient is R F R^T - 1: it must hold the rotation.
     """
     stress, volume, mass = particles.stress, particles.volume, particles.mass
     base, local, near = stencil.base, stencil.local, stencil.near
@@ -80,11 +81,12 @@ def sum_fields(sums, particles, stencil, shape, strides, box, nodes, lo, hi):
             sums[to, 7] += w * stress[p, 3]
             sums[to, 8] += w * particles.work[p]
             sums[to, 9] += w * kinetic
+            sums[to, 10] += w * volume[p] / mass[p]
 
 
 @kernel
 def area_term(particles, gravity, lower, upper, lo, hi):
-    """Return sums over the particles in a rectangle: inertia along x and y (N), and volume (m^3)."""
+    """Return sums over the particles in a rectangle: inertia along x, y (N), and volume (m^3)."""
     x, v, a, m = particles.position, particles.velocity, particles.acceleration, particles.mass
     F, L, volume = particles.F, particles.L, particles.volume
     Ax, Ay, inside = 0.0, 0.0, 0.0
@@ -101,12 +103,14 @@ def area_term(particles, gravity, lower, upper, lo, hi):
     return Ax, Ay, inside
 
 
-def integrate_contour(model, state, scratch, crack, tip, cells, terms, gravity) -> Contour:
-    """Return J along x and y on the rectangle of +-`cells` cells around the node nearest to `tip`.
+def integrate_contour(model, state, scratch, crack, tip, block, gravity) -> Contour:
+    """Return J along x and y on a rectangle around the node nearest to `tip`.
 
-    tip: position (m); terms: 1 for the line integral alone, 2 with the area integral of the inertia
+    With one term it is the line integral alone, with two the area integral of the inertia as well.
+
+    tip: position (m); block: particles of the material at the tip; gravity: m/s^2
     """
-    lattice = model.lattice
+    lattice, cells, terms = model.lattice, model.fracture.cells, model.fracture.terms
     centre = [round((x - low) / lattice.width) for x, low in zip(tip, lattice.lower, strict=True)]
     box = Box(centre[0] - cells, centre[1] - cells, 2 * cells + 1, 2 * cells + 1)
     if min(box.i, box.j) < 0 or any(
@@ -115,9 +119,11 @@ def integrate_contour(model, state, scratch, crack, tip, cells, terms, gravity) 
         return Contour(np.nan, np.nan, "the contour does not fit in the grid")
     walk = _Walk(model, state, scratch, crack, box)
     Jx, Jy = walk.line_integral()
+    lower = np.array(lattice.lower) + lattice.width * np.array([box.i, box.j])
+    upper = lower + 2 * cells * lattice.width
+    if _holds_others(model, state.particles, block.law, lower, upper):
+        return Contour(np.nan, np.nan, "another material lies within the contour")
     if terms == 2:
-        lower = np.array(lattice.lower) + lattice.width * np.array([box.i, box.j])
-        upper = lower + 2 * cells * lattice.width
         Ax, Ay, inside = (
             sum(s)
             for s in zip(
@@ -134,13 +140,21 @@ def integrate_contour(model, state, scratch, crack, tip, cells, terms, gravity) 
     return Contour(Jx, Jy, walk.trouble())
 
 
+def _holds_others(model, particles, law, lower, upper) -> bool:
+    """Return whether particles of another law lie in a rectangle or a cell beside it."""
+    width = model.lattice.width
+    others = [b for b in model.blocks if not same_law(b.law, law)]
+    places = (particles.position[b.lo : b.hi] for b in others)
+    return any(np.all((x > lower - width) & (x < upper + width), axis=1).any() for x in places)
+
+
 class _Walk:
     """One way round a contour."""
 
     def __init__(self, model, state, scratch, crack, box):
         self.model, self.scratch, self.crack, self.box = model, scratch, crack, box
         self.nodes = len(scratch.rows.first)
-        sums = np.zeros((box.wide * box.high + int(scratch.rows.count[0]), 10))
+        sums = np.zeros((box.wide * box.high + int(scratch.rows.count[0]), 11))
         for b in model.blocks:
             sum_fields(
                 sums,
@@ -153,8 +167,9 @@ class _Walk:
                 b.lo,
                 b.hi,
             )
-        self.mass = sums[:, 0].copy()
-        self.fields = sums / np.where(self.mass > 0.0, self.mass, 1.0)[:, None]
+        self.cell = model.lattice.width**2 * model.geometry.thickness
+        self.volume, mass = sums[:, 10].copy(), sums[:, 0]
+        self.fields = sums[:, :10] / np.where(mass > 0.0, mass, 1.0)[:, None]
         self.crossings = 0
         self.other_cracks = 0
         self.empty = 0
@@ -209,19 +224,14 @@ class _Walk:
 
     def _own(self, at):
         """Fields of the side on which the node lies."""
-        cell_mass = self._full_mass()
         own = self._local(at)
         node = at[0] + at[1] * self.model.strides[1]
-        mass, row = self.mass[own], self.scratch.rows.first[node]
+        volume, row = self.volume[own], self.scratch.rows.first[node]
         while row >= 0:
-            mass += self.mass[self.box.wide * self.box.high + row - self.nodes]
+            volume += self.volume[self.box.wide * self.box.high + row - self.nodes]
             row = self.scratch.rows.next[row - self.nodes]
-        self.empty += mass < FULL * cell_mass
+        self.empty += volume < FULL * self.cell
         return self.fields[own]
-
-    def _full_mass(self):
-        density = max(b.density for b in self.model.blocks)
-        return density * self.model.lattice.width**2 * self.model.geometry.thickness
 
     def _across(self, at):
         """Fields of the other side of the crack at a node; zero where nobody is."""

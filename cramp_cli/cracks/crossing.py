@@ -3,8 +3,8 @@
 The velocity field of a particle-node pair is found with this test (Nairn 2003). Every tie has one
 answer, seen from everywhere: a point on a crack (within 1e-9 cells) lies below it, and a vertex
 belongs to one of its two segments. So a crack may run along a grid line, through nodes, through
-particles or along a diagonal, and acts as if it lay a hair above them. Lines that cross a crack twice
-do not cross it.
+particles or along a diagonal, and acts as if it lay a hair above them. Lines that cross a crack
+twice do not cross it.
 """
 
 from typing import NamedTuple
@@ -19,7 +19,7 @@ EXTENSION = 4.0  # an edge end is carried on by this many segment lengths
 
 
 class Segments(NamedTuple):
-    """Segments of all cracks, with edge ends carried on into free space, and the cells they touch."""
+    """Segments of all cracks, edge ends carried on into free space, and the cells they touch."""
 
     ends: np.ndarray  # (segments, 4) x, y of both ends (m), tips carried on
     real: np.ndarray  # (segments, 4) the same with tips where they are
@@ -73,9 +73,12 @@ def crosses(ends, s, px, py, nx, ny, tolerance):
 
 @kernel
 def crossed_cracks(segments, cell, px, py, nx, ny, tolerance):
-    """Return the first two cracks that the line p -> n crosses, as (a, side_a, segment_a, b, ..., more).
+    """Return the first two cracks that the line p -> n crosses.
 
-    cell: lowest node of the cell of p; cracks are -1 where there is none; `more` counts further cracks
+    returns: a, side_a, segment_a, b, side_b, segment_b, more
+
+    cell: lowest node of the cell of p; cracks are -1 where there is none; `more` counts further
+    cracks
     """
     ends, owner, item, following = segments.ends, segments.crack, segments.item, segments.next
     a, side_a, seg_a = -1, 0, -1
@@ -138,10 +141,12 @@ def cell_range(low, high, lower, width, cells, grown):
 
 @kernel
 def list_segments(segments, paths, cells, width, lower, strides, growth, zone_growth, beyond_tip):
-    """Fill the lists of segments per cell; return False if they do not fit (`used[2]` says how many).
+    """Fill the lists of segments per cell; return False if they do not fit.
 
-    A particle tests the segments within `growth` cells of its own; nodes with several rows can be seen
-    from cells within `zone_growth`.
+    `used[2]` says how many there are.
+
+    A particle tests the segments within `growth` cells of its own; nodes with several rows can be
+    seen from cells within `zone_growth`.
     """
     head, item, following, zone = segments.head, segments.item, segments.next, segments.zone
     head[:] = -1

@@ -3,8 +3,8 @@
 The equivalent domain integral (Shih, Moran, Nakamura 1986) and the interaction integral (Yau, Wang,
 Corten 1980) with inertia (Rethore et al. 2005), in the undeformed configuration: exact for finite
 rotations, with the local axes turned back to the crack's initial direction. The weight falls from 1
-at R0 to 0 at R1 as a quintic: particles are a coarse quadrature, and a weight with corners would put
-some percent of noise on K.
+at R0 to 0 at R1 as a quintic: particles are a coarse quadrature, and a weight with corners would
+put some percent of noise on K.
 """
 
 from math import pi, sqrt
@@ -70,12 +70,35 @@ def local_stress(axis, stress, p):
 
 @kernel
 def local_gradient(frame, F, p):
-    """Return F of a particle in the local axes: rows in those of now, columns in those of before."""
+    """Return F of a particle: rows in the local axes of now, columns in those of before."""
     a0, b0 = local_vector(frame.now, F[p, 0], F[p, 2])
     a1, b1 = local_vector(frame.now, F[p, 1], F[p, 3])
     f00, f01 = local_vector(frame.before, a0, a1)
     f10, f11 = local_vector(frame.before, b0, b1)
     return f00, f01, f10, f11
+
+
+@kernel
+def material_beside(particles, frame, length, lo, hi):
+    """Return weighed volumes of particles above and below the crack just behind a tip (m^3).
+
+    The weight is a bump of height 1 along the crack, from the tip to `length` behind it, times one
+    that falls from the crack to `length` on either side; its integral is length/2 along the crack.
+    """
+    X, volume = particles.origin, particles.volume
+    above, below = 0.0, 0.0
+    for p in range(lo, hi):
+        x, y = local_vector(
+            frame.before, X[p, 0] - frame.origin[0], X[p, 1] - frame.origin[1]
+        )
+        if -length < x < 0.0 and abs(y) < length:
+            along = weight(abs(x + 0.5 * length), 0.0, 0.5 * length)[0]
+            w = volume[p] * along * weight(abs(y), 0.0, length)[0]
+            if y > 0.0:
+                above += w
+            else:
+                below += w
+    return above, below
 
 
 @kernel

@@ -58,13 +58,15 @@ def _rows_fit(scratch, state, model) -> bool:
     listed = find_particles_near_cracks(stencil, segments, strides, len(stencil.entries))
     if listed > len(stencil.entries):
         per_particle = stencil.which.shape[1] // 2
-        scratch.stencil = stencil._replace(**make_lists(per_particle, listed + listed // 4))
+        scratch.stencil = stencil._replace(**make_lists(per_particle, len(strides), listed + listed // 4))
         return False
     forget_rows(rows)
     if blended:
-        mark_tip_nodes(rows, state.paths, segments, *grid, tips.centre, tips.ramp)
+        mark_tip_nodes(rows, state.paths, segments, *grid)
     place = (strides, lattice.nodes, lattice.width, lattice.lower)
-    assign_rows(stencil, rows, segments, state.particles.position, shape, *place)
+    ramp = (tips.centre, tips.ramp) if blended else (0.0, 1.0)
+    position, paths = state.particles.position, state.paths
+    assign_rows(stencil, rows, segments, paths, position, shape, *place, *ramp)
     if rows.count[0] > len(rows.node):
         scratch.grid, scratch.rows = make_grid(
             lattice.node_count, len(strides), 2 * int(rows.count[0])

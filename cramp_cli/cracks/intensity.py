@@ -26,7 +26,7 @@ def open_and_slide(opening, direction) -> tuple[float, float]:
 
 
 def K_from_J(J, normal, slide, shear, kappa) -> tuple[float, float]:
-    """Return K_I and K_II (Pa sqrt(m)) whose J is the given one and whose ratio is that of the opening.
+    """Return K_I and K_II (Pa sqrt(m)) of the given J, in the ratio of the opening.
 
     Source: Guo and Nairn (2004); a tip at rest.
     """

@@ -2,14 +2,15 @@
 
 A row of a node is told by the cracks that the lines from its particles cross and the sides they come
 from, so the result does not depend on the order of particles, any number of cracks may meet at a node,
-and contact acts between rows that differ by exactly one crack. Beside a tip a node may be part cut
-(tip_nodes.py): then a particle gives a share of its weight to the row of its side and the rest to the
-row that both sides share.
+and contact acts between rows that differ by exactly one crack. A particle that a tip is passing is part
+cut (tip_nodes.py): it gives a share of its weight to the row of its side and the rest to the row that
+both sides share.
 """
 
 import numpy as np
 
 from cramp_cli.cracks.crossing import ON_CRACK, crossed_cracks
+from cramp_cli.cracks.tip_nodes import cut_share
 from cramp_cli.numerics.kernel import kernel
 from cramp_cli.numerics.tensor import vector
 from cramp_cli.shapes.shape import node_steps, offsets
@@ -162,7 +163,7 @@ def _join_single(rows, node, a, side_a):
 @kernel
 def _is_wrong(rows, node, crack, side):
     """Return whether the rows of a node know this crack from the other side only."""
-    if rows.tip_crack[node] == crack:
+    if rows.tip[node] // 2 == crack:
         return False
     nodes = len(rows.first)
     row = rows.first[node]
@@ -185,39 +186,43 @@ def add_normal(rows, row, crack, ends, s):
 
 
 @kernel
-def add_entry(stencil, line, k, row, share):
+def add_entry(stencil, line, k, row, share, tilt):
     """Add an entry to the list of a particle."""
     e = stencil.entries[line]
-    stencil.which[line, e], stencil.table[line, e], stencil.share[line, e] = k, max(row, 0), share
+    stencil.which[line, e], stencil.table[line, e] = k, max(row, 0)
+    stencil.share[line, e], stencil.tilt[line, e] = share, tilt
     stencil.entries[line] = e + 1
 
 
 @kernel
-def give_rows(stencil, rows, ends, line, k, node, crossed):
-    """Give the pair of a particle and its node `k` one row, or two where the node is part cut."""
+def give_row(stencil, rows, ends, line, k, node, crossed):
+    """Give the pair of a particle and its node `k` the row of the cracks it crosses."""
     a, side_a, seg_a, b, side_b, seg_b, more = crossed
     rows.count[3] += more
-    c = rows.tip_crack[node]
-    if c < 0:
-        row = join_row(rows, node, a, side_a, b, side_b)
-        add_normal(rows, row, a, ends, seg_a)
-        add_normal(rows, row, b, ends, seg_b)
-        add_entry(stencil, line, k, row, 1.0)
-        return
-    side, seg = rows.tip_side[node], rows.tip_segment[node]
+    row = join_row(rows, node, a, side_a, b, side_b)
+    add_normal(rows, row, a, ends, seg_a)
+    add_normal(rows, row, b, ends, seg_b)
+    add_entry(stencil, line, k, row, 1.0, 0.0)
+
+
+@kernel
+def give_shares(stencil, rows, ends, line, k, node, crossed, cut):
+    """Give the pair of a particle and its node `k` beside a tip two rows: cut and whole."""
+    a, side_a, seg_a, b, side_b, seg_b, more = crossed
+    rows.count[3] += more
+    c, side, seg = rows.tip[node] // 2, rows.tip_side[node], rows.tip_segment[node]
     if a == c:
         side, seg = side_a, seg_a
         a, side_a, seg_a, b, side_b, seg_b = b, side_b, seg_b, -1, 0, -1
     elif b == c:
         side, seg = side_b, seg_b
         b, side_b, seg_b = -1, 0, -1
-    whole = 1.0 - rows.cut[node]
-    if whole > 0.0:
+    if cut < 1.0:
         row = join_row(rows, node, a, side_a, b, side_b)
         add_normal(rows, row, a, ends, seg_a)
         add_normal(rows, row, b, ends, seg_b)
-        add_entry(stencil, line, k, row, whole)
-    if whole < 1.0:
+        add_entry(stencil, line, k, row, 1.0 - cut, -1.0)
+    if cut > 0.0:
         rows.count[3] += b >= 0
         if a < 0 or c < a:
             row = join_row(rows, node, c, side, a, side_a)
@@ -225,11 +230,13 @@ def give_rows(stencil, rows, ends, line, k, node, crossed):
             row = join_row(rows, node, a, side_a, c, side)
         add_normal(rows, row, c, ends, seg)
         add_normal(rows, row, a, ends, seg_a)
-        add_entry(stencil, line, k, row, 1.0 - whole)
+        add_entry(stencil, line, k, row, cut, 1.0)
 
 
 @kernel
-def assign_rows(stencil, rows, segments, position, shape, strides, nodes_along, width, lower):
+def assign_rows(
+    stencil, rows, segments, paths, position, shape, strides, nodes_along, width, lower, centre, ramp
+):
     """List the rows of all particles near cracks; rows too many are counted, not made."""
     listed, base, local = stencil.listed, stencil.base, stencil.local
     steps = offsets(strides, shape)
@@ -242,11 +249,21 @@ def assign_rows(stencil, rows, segments, position, shape, strides, nodes_along, 
             cell += int(np.floor(local[p, d])) * strides[d]
         x = vector(strides, position, p)
         corner = (base[p] % nodes_along[0], base[p] // strides[1])
+        known, cut = -1, 1.0
         for k in range(len(steps)):
             nx = lower[0] + width * (corner[0] + k % side)
             ny = lower[1] + width * (corner[1] + k // side)
+            node = base[p] + steps[k]
             crossed = crossed_cracks(segments, cell, x[0], x[1], nx, ny, ON_CRACK * width)
-            give_rows(stencil, rows, segments.ends, line, k, base[p] + steps[k], crossed)
+            tip = rows.tip[node]
+            if tip < 0:
+                give_row(stencil, rows, segments.ends, line, k, node, crossed)
+                continue
+            if tip != known:
+                known = tip
+                cut, gx, gy = cut_share(paths, tip, x[0], x[1], shape.half, width, centre, ramp)
+                stencil.slope[line, 0], stencil.slope[line, 1] = gx, gy
+            give_shares(stencil, rows, segments.ends, line, k, node, crossed, cut)
 
 
 @kernel

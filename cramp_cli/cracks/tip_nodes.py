@@ -1,11 +1,12 @@
-"""Nodes beside a tip are part cut, part whole, so that a tip is felt at any place within its cell.
+"""Particles beside a tip are part cut, so that a tip is felt at any place within its cell.
 
-With the line test alone a node falls from whole to cut at once when the tip passes it: the crack acts
-as if it were up to a third of a cell longer than it is, by an amount that jumps from node to node and
-with the height of the crack in its cell. Here the cut share of a node rises from 0 to 1 while the tip
-passes it. A particle gives that share of its weight to the row of its side, the rest to the row that
-both sides share: the grid is a blend of one in which the node is cut and one in which it is whole.
-Sums, momentum and energy are those of both grids together, and both faces are treated alike.
+With the line test alone a pair of particle and node falls from whole to cut at once when the tip passes
+it: the jump across the crack ends abruptly somewhere around the tip, up to a third of a cell ahead of
+it, by an amount that changes from node to node and with the height of the crack in its cell. Here the
+cut share q of a particle rises from 0 at the tip to 1 some way behind it. The particle gives q S to the
+row of its side and (1 - q) S to the row that both sides share, at every node around the tip. So the
+jump is q S times the difference of the two sides: it vanishes at the tip, and its gradient holds that
+of q. Both sides are treated alike wherever the nodes lie.
 """
 
 from math import inf, sqrt
@@ -16,82 +17,121 @@ from cramp_cli.cracks.crossing import ON_CRACK, double_area
 from cramp_cli.numerics.kernel import kernel
 from cramp_cli.state.paths import EDGE
 
-REACH = 4  # cells around a tip whose nodes are looked at
+REACH = 5  # cells around a tip whose nodes are looked at
+BEHIND = 3.5  # cells behind a tip within which a node may see a particle that is part cut
 LATERAL = 2.0  # cells from the line of the crack beyond which no particle sees both sides of a node
 EXTENSION = 3.0  # cells by which a tip is carried on to tell the sides ahead of it
 
 
 @kernel
-def along_crack(point, first, last, tip, nx, ny):
-    """Return where a node lies from a tip: distance ahead along the crack, and from it (m); segment.
+def along_crack(point, first, last, tip, x, y):
+    """Return where a place lies from a tip: distance ahead along the crack and from it (m).
 
-    Behind the tip the distance is negative and counts along the crack. first, last: points of the
-    crack; tip: the one of both that is the tip. The segment is counted from the first.
+    Behind the tip the first distance is negative and counts along the crack. Further: the segment that
+    is nearest, counted from the first, and its unit vector towards the tip.
+
+    first, last: points of the crack; tip: the one of both that is the tip
     """
     step = 1 if tip == first else -1
-    ahead, nearest, segment = 0.0, inf, 0
+    ahead, nearest, segment, ex, ey = 0.0, inf, 0, 0.0, 0.0
     travelled = 0.0
     k = tip
     while k != (last if tip == first else first):
         ax, ay, bx, by = point[k, 0], point[k, 1], point[k + step, 0], point[k + step, 1]
         dx, dy = bx - ax, by - ay
         size = sqrt(dx * dx + dy * dy)
-        t = ((nx - ax) * dx + (ny - ay) * dy) / (size * size)
+        t = ((x - ax) * dx + (y - ay) * dy) / (size * size)
         t = min(t, 1.0) if k == tip else min(max(t, 0.0), 1.0)
-        away = sqrt((nx - ax - t * dx) ** 2 + (ny - ay - t * dy) ** 2)
+        away = sqrt((x - ax - t * dx) ** 2 + (y - ay - t * dy) ** 2)
         if away < nearest:
             nearest, ahead = away, -(travelled + t * size)
             segment = (k if step == 1 else k - 1) - first
+            ex, ey = -dx / size, -dy / size
         travelled += size
         k += step
-    return ahead, nearest, segment
+    return ahead, nearest, segment, ex, ey
+
+
+@kernel
+def rise(x, ramp):
+    """Return the cut share of a point x behind the start of the ramp, and its integral up to there."""
+    if x <= 0.0:
+        return 0.0, 0.0
+    if x >= ramp:
+        return 1.0, x - 0.5 * ramp
+    return x / ramp, 0.5 * x * x / ramp
+
+
+@kernel
+def cut_share(paths, tip, x, y, half, width, centre, ramp):
+    """Return the cut share of a particle at (x, y) and its gradient (per cell).
+
+    Both are averages over the particle, as in GIMP: a particle that the ramp only grazes must not feel
+    the whole gradient, or the stress ahead of the tip would be released.
+
+    tip: 2 * crack + end; half: half size of the particle along each axis (cells); centre: where ahead
+    of the tip the share begins to rise (cells); ramp: cells from whole to cut
+    """
+    crack = tip // 2
+    first, last = paths.start[crack], paths.start[crack + 1] - 1
+    at = first if tip % 2 == 0 else last
+    ahead, _, _, ex, ey = along_crack(paths.point, first, last, at, x, y)
+    reach = abs(ex) * half[0] + abs(ey) * half[1]
+    behind = centre - ahead / width
+    low, low_sum = rise(behind - reach, ramp)
+    high, high_sum = rise(behind + reach, ramp)
+    slope = -0.5 * (high - low) / reach
+    return min(max(0.5 * (high_sum - low_sum) / reach, 0.0), 1.0), slope * ex, slope * ey
 
 
 @kernel
 def forget_tips(rows):
     """Make all nodes plain again."""
     for i in range(rows.count[4]):
-        rows.tip_crack[rows.tipped[i]] = -1
+        rows.tip[rows.tipped[i]] = -1
     rows.count[4] = 0
 
 
 @kernel
-def mark_tip_nodes(rows, paths, segments, cells, width, lower, strides, centre, ramp):
-    """Find the cut share of the nodes around every tip.
-
-    centre: where ahead of the tip a node is half cut (cells); ramp: cells from whole to cut
-    """
+def mark_tip_nodes(rows, paths, segments, cells, width, lower, strides):
+    """Find the nodes around every tip; a node between two tips belongs to the nearer one."""
     forget_tips(rows)
     point, start, ends = paths.point, paths.start, paths.ends
-    for c in range(len(start) - 1):
+    for tip in range(2 * (len(start) - 1)):
+        c, end = tip // 2, tip % 2
+        if ends[c, end] == EDGE:
+            continue
         first, last = start[c], start[c + 1] - 1
-        for end in range(2):
-            if ends[c, end] == EDGE:
-                continue
-            tip = first if end == 0 else last
-            i = int(np.floor((point[tip, 0] - lower[0]) / width))
-            j = int(np.floor((point[tip, 1] - lower[1]) / width))
-            for jj in range(max(j - REACH, 0), min(j + REACH + 1, cells[1]) + 1):
-                for ii in range(max(i - REACH, 0), min(i + REACH + 1, cells[0]) + 1):
-                    nx, ny = lower[0] + ii * width, lower[1] + jj * width
-                    ahead, away, segment = along_crack(point, first, last, tip, nx, ny)
-                    cut = min(max(0.5 - (ahead / width - centre) / ramp, 0.0), 1.0)
-                    if cut < 1.0 and away < LATERAL * width:
-                        node = ii * strides[0] + jj * strides[1]
-                        _mark(rows, segments, node, c, first - c + segment, cut, nx, ny, width)
+        at = first if end == 0 else last
+        i = int(np.floor((point[at, 0] - lower[0]) / width))
+        j = int(np.floor((point[at, 1] - lower[1]) / width))
+        for jj in range(max(j - REACH, 0), min(j + REACH + 1, cells[1]) + 1):
+            for ii in range(max(i - REACH, 0), min(i + REACH + 1, cells[0]) + 1):
+                x, y = lower[0] + ii * width, lower[1] + jj * width
+                ahead, away, segment, _, _ = along_crack(point, first, last, at, x, y)
+                if ahead > -BEHIND * width and away < LATERAL * width:
+                    node = ii * strides[0] + jj * strides[1]
+                    other = rows.tip[node]
+                    if other < 0 or abs(ahead) < _distance_ahead(paths, other, x, y):
+                        _mark(rows, segments, node, tip, first - c + segment, x, y, width)
 
 
 @kernel
-def _mark(rows, segments, node, crack, segment, cut, nx, ny, width):
-    if rows.tip_crack[node] >= 0:
-        if cut >= rows.cut[node]:
-            return
-    else:
+def _distance_ahead(paths, tip, x, y):
+    crack = tip // 2
+    first, last = paths.start[crack], paths.start[crack + 1] - 1
+    at = first if tip % 2 == 0 else last
+    return abs(along_crack(paths.point, first, last, at, x, y)[0])
+
+
+@kernel
+def _mark(rows, segments, node, tip, segment, x, y, width):
+    if rows.tip[node] < 0:
         rows.tipped[rows.count[4]] = node
         rows.count[4] += 1
     ends = segments.ends
     ax, ay, bx, by = ends[segment, 0], ends[segment, 1], ends[segment, 2], ends[segment, 3]
     limit = ON_CRACK * width * (abs(bx - ax) + abs(by - ay))
-    above = double_area(ax, ay, bx, by, nx, ny) > limit
-    rows.tip_crack[node], rows.tip_segment[node], rows.cut[node] = crack, segment, cut
+    above = double_area(ax, ay, bx, by, x, y) > limit
+    rows.tip[node], rows.tip_segment[node] = tip, segment
     rows.tip_side[node] = 1 if above else -1

@@ -1,12 +1,14 @@
 """J, K_I and K_II at every tip, with a word on whether they can be trusted.
 
-The domain integral is the product; the contour integral of the paper stands beside it. A radius of five
-cells is enough for the smooth weight; near an edge of the body, another tip, a load, a held boundary, a
-bend or another material the domain shrinks, and where too little is left the tip has no number.
+The domain integral is the product; the contour integral of the paper stands beside it. A radius of
+five cells is enough for the smooth weight; near an edge of the body, another tip, a load, a held
+boundary, a bend or another material the domain shrinks, and where too little is left the tip has no
+number. A crack on a symmetry plane has half a domain; the other half is its image.
 """
 
 from dataclasses import dataclass
 from math import hypot, nan
+from typing import Any
 
 import numpy as np
 
@@ -18,16 +20,18 @@ from cramp_cli.cracks.domain_integral import (
     TipFrame,
     integral_of_weight,
     integrate_domain,
+    material_beside,
 )
 from cramp_cli.cracks.intensity import K_from_J, open_and_slide, opening_near_tip
+from cramp_cli.cracks.room import find_room
 from cramp_cli.materials.geometry import is_plane_stress
-from cramp_cli.materials.law import poisson_ratio, shear_modulus
+from cramp_cli.materials.law import poisson_ratio, same_law, shear_modulus
 from cramp_cli.state.paths import TIP
 
+BESIDE = 3.0  # cells behind a tip and beside the crack in which the sides are told apart
 USUAL, SMALLEST = 5.0, 2.5  # radius of the domain in cells, and the least that gives a number
 SPREAD = (0.8, 1.0, 1.2)  # radii that are compared, in shares of the radius
 LEAK = 0.02  # part of the domain that may be empty: particles are a coarse quadrature
-BEND = 0.17  # a crack that turns by more than this (rad) ends the domain
 
 
 @dataclass(frozen=True)
@@ -38,7 +42,7 @@ class Fracture:
     radii: tuple = ()  # m; empty: chosen by the program
     cells: int = 2  # half size of the contour
     terms: int = 1  # 2: with the area integral of the inertia
-    obstacles: tuple = ()  # (position in the undeformed body (n, 2), what it is)
+    obstacles: tuple = ()  # of Obstacle
 
 
 @dataclass(frozen=True)
@@ -53,6 +57,17 @@ class Tip:
         """Return the unit vector out of the crack along `line` (points of all cracks)."""
         ex, ey = line[self.points[0]] - line[self.points[1]]
         return float(ex / hypot(ex, ey)), float(ey / hypot(ex, ey))
+
+
+@dataclass(frozen=True)
+class Site:
+    """What the integrals around a tip need to know."""
+
+    frame: TipFrame
+    block: Any  # the particles of the material at the tip
+    hooke: Hooke
+    gravity: Any  # acceleration of everything (m/s^2)
+    half: bool  # the crack lies on a symmetry plane, the other half of the body is an image
 
 
 def tips_of(paths) -> list[Tip]:
@@ -72,12 +87,9 @@ def sample_tips(model, state, scratch) -> list[dict]:
 
 
 def _sample(model, state, scratch, tip) -> dict:
-    paths, settings = state.paths, model.fracture
-    place, now = paths.point[tip.points[0]], tip.direction(paths.point)
-    hooke = hooke_at(model, state.particles, paths.origin[tip.points[0]])
-    gravity = model.conditions.body_force(state.time, 2)
-    opening = opening_near_tip(paths, tip.crack, tip.end)
-    normal, slide = open_and_slide(opening, now)
+    paths, site = state.paths, site_of(model, state, tip)
+    place, now = paths.point[tip.points[0]], site.frame.now
+    normal, slide = open_and_slide(opening_near_tip(paths, tip.crack, tip.end), now)
     row = {
         "step": state.step,
         "time": state.time,
@@ -85,7 +97,7 @@ def _sample(model, state, scratch, tip) -> dict:
         "tip": ("start", "end")[tip.end],
         "x": float(place[0]),
         "y": float(place[1]),
-        "angle": float(np.degrees(np.arctan2(now[1], now[0]))),
+        "angle": float(np.arctan2(now[1], now[0])),
         "length": crack_length(paths, tip.crack),
         "speed": 0.0,
         "K_III": 0.0,
@@ -95,85 +107,124 @@ def _sample(model, state, scratch, tip) -> dict:
     unmeasured = {"J": nan, "K_I": nan, "K_II": nan, "J_spread": nan}
     row |= unmeasured | {"J_contour": nan, "K_I_contour": nan, "K_II_contour": nan}
     remarks = []
-    if "domain" in settings.methods:
-        measured, remark = _measure_domain(model, state, scratch, tip, hooke, gravity)
+    if "domain" in model.fracture.methods:
+        measured, remark = _measure_domain(model, state, scratch, tip, site)
         row |= measured
         remarks.append(remark)
-    if "contour" in settings.methods:
-        measured, remark = _measure_contour(
-            model, state, scratch, tip, hooke, gravity, normal, slide
-        )
+    if "contour" in model.fracture.methods:
+        measured, remark = _measure_contour(model, state, scratch, tip, site, normal, slide)
         row |= measured
         remarks.append(remark)
     return row | {"status": "; ".join(filter(None, remarks)) or "ok"}
 
 
-def _measure_contour(model, state, scratch, tip, hooke, gravity, normal, slide):
-    place = state.paths.point[tip.points[0]]
-    settings = model.fracture
-    contour = integrate_contour(
-        model, state, scratch, tip.crack, place, settings.cells, settings.terms, gravity
+def site_of(model, state, tip) -> Site:
+    """Return what the integrals around a tip need to know."""
+    paths = state.paths
+    place = paths.origin[tip.points[0]]
+    frame = TipFrame(
+        tuple(place.tolist()), tip.direction(paths.origin), tip.direction(paths.point)
     )
+    block = block_at(model, state.particles, place)
+    gravity = model.conditions.body_force(state.time, len(model.strides))
+    half = bool(paths.mirror[tip.crack, 0] >= 0)
+    if not half:
+        frame = between_particles(model, state.particles, frame)
+    return Site(frame, block, hooke_of(block.law, model.geometry), gravity, half)
+
+
+def between_particles(model, particles, frame) -> TipFrame:
+    """Return the frame of a tip moved to the line that parts the particles of both sides.
+
+    Particles belong to one side as wholes, so the faces of the discrete body lie midway between
+    them, up to a quarter of a cell from the line of the crack; seen from the line itself K_I would
+    leak into K_II by a percent at ten cells per half crack.
+    """
+    length, thickness = BESIDE * model.lattice.width, model.geometry.thickness
+    sides = [material_beside(particles, frame, length, b.lo, b.hi) for b in model.blocks]
+    above, below = (sum(side) / (0.5 * length * thickness) for side in zip(*sides, strict=True))
+    if abs(above + below - length) > LEAK * length:
+        return frame
+    off, (ex, ey), (x, y) = 0.5 * (below - above), frame.before, frame.origin
+    return frame._replace(origin=(x - off * ey, y + off * ex))
+
+
+def block_at(model, particles, place):
+    """Return the block of the particle nearest to a place in the undeformed body (m)."""
+    nearest = int(np.argmin(np.sum((particles.origin - place) ** 2, axis=1)))
+    return next(b for b in model.blocks if b.lo <= nearest < b.hi)
+
+
+def hooke_of(law, geometry) -> Hooke:
+    """Return the elastic constants of a law in the plane."""
+    shear, nu = shear_modulus(law), poisson_ratio(law)
+    plane_nu = nu / (1.0 + nu) if is_plane_stress(geometry) else nu
+    return Hooke(shear, 3.0 - 4.0 * plane_nu, plane_nu, 2.0 * shear / (1.0 - plane_nu))
+
+
+def _measure_contour(model, state, scratch, tip, site, normal, slide):
+    if site.half:
+        return {}, "contour invalid: the crack lies on a symmetry plane"
+    place = state.paths.point[tip.points[0]]
+    contour = integrate_contour(model, state, scratch, tip.crack, place, site.block, site.gravity)
     if contour.trouble:
         return {}, f"contour invalid: {contour.trouble}"
-    J, _ = along(tip.direction(state.paths.point), contour)
-    K_I, K_II = K_from_J(J, normal, slide, hooke.shear, hooke.kappa)
+    J, _ = along(site.frame.now, contour)
+    K_I, K_II = K_from_J(J, normal, slide, site.hooke.shear, site.hooke.kappa)
     return {"J_contour": J, "K_I_contour": K_I, "K_II_contour": K_II}, ""
 
 
-def _measure_domain(model, state, scratch, tip, hooke, gravity):
-    paths, settings, width = state.paths, model.fracture, model.lattice.width
-    frame = TipFrame(
-        tuple(paths.origin[tip.points[0]].tolist()),
-        tip.direction(paths.origin),
-        tip.direction(paths.point),
-    )
-    room, what = _room(model, paths, tip, frame)
-    wanted = settings.radii[0] if settings.radii else USUAL * width
-    radius, remark = wanted, ""
-    while True:
-        if radius > room:
-            radius, remark = room, what
-        J, K_I, K_II, full = domain_values(model, state, frame, hooke, gravity, radius)
-        if full or radius < SMALLEST * width:
-            break
-        radius, remark = 0.9 * radius, "the edge of the body"
-    if radius < SMALLEST * width or (settings.radii and remark):
+def _measure_domain(model, state, scratch, tip, site):
+    paths, radii, width = state.paths, model.fracture.radii, model.lattice.width
+    wanted, least = radii[0] if radii else USUAL * width, (1.0 - 1e-9) * SMALLEST * width
+    if wanted < least:
+        return {}, f"invalid: the radius is below {SMALLEST:g} cells"
+    room, what = find_room(model, paths, tip, site.frame.origin)
+    radius, remark = (room, what) if room < wanted else (wanted, "")
+    measured = None
+    while radius >= least and measured is None:
+        *values, spoiled = domain_values(model, state.particles, site, radius)
+        if spoiled:
+            radius, remark = 0.9 * radius, spoiled
+        else:
+            measured = values
+    if measured is None or (radii and remark):
         return {}, f"invalid: {remark} is nearer than {wanted / width:.3g} cells"
-    radii = settings.radii[1:] or [s * radius for s in SPREAD if s * radius <= room]
-    values = [domain_values(model, state, frame, hooke, gravity, r) for r in radii]
-    others = [v[0] for v in values if v[3]] or [J]
-    spread = (max(*others, J) - min(*others, J)) / abs(J) if J else 0.0
+    J, K_I, K_II = measured
+    others = [r for r in radii[1:] or [s * radius for s in SPREAD] if r <= room]
+    spread = _spread(J, [domain_values(model, state.particles, site, r) for r in others])
     status = f"shrunk: {remark} within {wanted / width:.3g} cells" if remark else ""
     if _is_closed(model, scratch, tip, paths.point[tip.points[0]], radius):
         K_I, status = 0.0, "; ".join(filter(None, ["closed", status]))
     return {"J": J, "K_I": K_I, "K_II": K_II, "J_spread": spread}, status
 
 
-def domain_values(model, state, frame, hooke, gravity, radius):
-    """Return J, K_I, K_II of a domain, and whether it is filled with one material."""
-    sums = np.zeros(4)
-    fills = []
+def _spread(J, others) -> float:
+    """Return the spread of J over domains that hold nothing foreign; nan if none has another J."""
+    values = [value for value, _, _, spoiled in others if not spoiled]
+    if not values:
+        return nan
+    return (max(*values, J) - min(*values, J)) / abs(J) if J else 0.0
+
+
+def domain_values(model, particles, site, radius):
+    """Return J, K_I, K_II of a domain, and what spoils it: an empty text if it is full."""
+    sums, own = np.zeros(4), 0.0
     for b in model.blocks:
         part = integrate_domain(
-            state.particles, frame, hooke, gravity, INNER * radius, radius, b.lo, b.hi
+            particles, site.frame, site.hooke, site.gravity, INNER * radius, radius, b.lo, b.hi
         )
         sums += part
-        fills.append(part[3])
-    thickness = model.geometry.thickness
-    expected = integral_of_weight(INNER * radius, radius) * thickness
-    full = abs(max(fills) / expected - 1.0) < LEAK
-    J, K_I, K_II = (sums[:3] / thickness).tolist()
-    return J, K_I, K_II, full
-
-
-def hooke_at(model, particles, place) -> Hooke:
-    """Return the elastic constants of the particle nearest to a place in the undeformed body (m)."""
-    nearest = int(np.argmin(np.sum((particles.origin - place) ** 2, axis=1)))
-    law = next(b.law for b in model.blocks if b.lo <= nearest < b.hi)
-    shear, nu = shear_modulus(law), poisson_ratio(law)
-    plane_nu = nu / (1.0 + nu) if is_plane_stress(model.geometry) else nu
-    return Hooke(shear, 3.0 - 4.0 * plane_nu, plane_nu, 2.0 * shear / (1.0 - plane_nu))
+        own += part[3] if same_law(b.law, site.block.law) else 0.0
+    per_length = (2.0 if site.half else 1.0) / model.geometry.thickness
+    J, K_I, K_II, filled = (per_length * sums).tolist()
+    expected = integral_of_weight(INNER * radius, radius)
+    spoiled = ""
+    if abs(filled / expected - 1.0) >= LEAK:
+        spoiled = "the edge of the body"
+    elif abs(per_length * own / expected - 1.0) >= LEAK:
+        spoiled = "another material"
+    return J, K_I, 0.0 if site.half else K_II, spoiled
 
 
 def crack_length(paths, crack: int) -> float:
@@ -181,38 +232,6 @@ def crack_length(paths, crack: int) -> float:
     points = paths.crack(crack)
     middle = 0.5 * (paths.above[points] + paths.below[points])
     return float(np.hypot(*np.diff(middle, axis=0).T).sum())
-
-
-def _room(model, paths, tip, frame) -> tuple[float, str]:
-    """Return the distance of what is nearest to a tip and spoils its domain, and what that is."""
-    here = np.array(frame.origin)
-    found = [(np.inf, "")]
-    for c in range(paths.crack_count):
-        line = paths.origin[paths.crack(c)]
-        if c != tip.crack:
-            found.append((_distance(here, line), f"crack {model.crack_names[c]}"))
-    own = paths.origin[tip.points]
-    step = np.diff(own, axis=0)
-    turned = np.arctan2(step[:, 1], step[:, 0]) - np.arctan2(-frame.before[1], -frame.before[0])
-    bent = np.flatnonzero(np.abs(np.angle(np.exp(1j * turned))) > BEND)
-    if len(bent):
-        found.append((float(np.hypot(*(own[bent[0]] - here))), "a bend of the crack"))
-    if paths.ends[tip.crack, 1 - tip.end] == TIP:
-        found.append((float(np.hypot(*(own[-1] - here))), "the other tip"))
-    for places, what in model.fracture.obstacles:
-        if len(places):
-            found.append((float(np.sqrt(np.min(np.sum((places - here) ** 2, axis=1)))), what))
-    return min(found)
-
-
-def _distance(here, line) -> float:
-    """Return the distance of a point from a polyline (m)."""
-    a, b = line[:-1], line[1:]
-    along_line = np.sum((here - a) * (b - a), axis=1) / np.maximum(
-        np.sum((b - a) ** 2, axis=1), 1e-300
-    )
-    foot = a + np.clip(along_line, 0.0, 1.0)[:, None] * (b - a)
-    return float(np.sqrt(np.min(np.sum((foot - here) ** 2, axis=1))))
 
 
 def _is_closed(model, scratch, tip, place, radius) -> bool:

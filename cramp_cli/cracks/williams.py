@@ -7,7 +7,7 @@ from cramp_cli.numerics.kernel import kernel
 
 @kernel
 def unit_stress(mode, x, y):
-    """Return sigma_xx, sigma_yy, sigma_xy (1/sqrt(m)) at (x, y), crack along negative x; mode 1 or 2."""
+    """Return sigma_xx, yy, xy (1/sqrt(m)) at (x, y), crack along negative x; mode 1 or 2."""
     r, half = sqrt(x * x + y * y), 0.5 * atan2(y, x)
     f, c, s = 1.0 / sqrt(2.0 * pi * r), cos(half), sin(half)
     c3, s3 = cos(3.0 * half), sin(3.0 * half)
@@ -18,7 +18,7 @@ def unit_stress(mode, x, y):
 
 @kernel
 def unit_slope(mode, x, y, shear, kappa):
-    """Return du_x/dx and du_y/dx at (x, y) for unit stress intensity factor (1/(Pa sqrt(m)) times Pa).
+    """Return du_x/dx and du_y/dx at (x, y) for a unit intensity, 1/(Pa sqrt(m)).
 
     shear: shear modulus (Pa); kappa: Kolosov's constant
     """

@@ -35,7 +35,11 @@ FAMILIES = {
     "cracks": "contact law",
     "materials": "material",
 }
-TITLES = {"Deck": "The deck", "VelocityOnPlane": "prescribed velocity"}
+TITLES = {
+    "Deck": "The deck",
+    "VelocityOnPlane": "prescribed velocity",
+    "EnergySection": "energy error",
+}
 HEAD = """# Decks
 
 A deck is one YAML file. Plain numbers are in SI; a text carries its unit: `2.4 mm`, `12 GPa`,

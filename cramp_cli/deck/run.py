@@ -50,12 +50,29 @@ class DampingSection(Section):
     particle: Damping = Field(0.0, ge=0, description="drag on the velocity of particles")
 
 
+class EnergySection(Section):
+    """How far the energy balance may be off, as a share of the largest energy so far."""
+
+    warn: Number = Field(0.01, gt=0, description="a run warns once above this")
+    stop: Number = Field(0.1, gt=0, description="a run ends above this")
+
+    def wrong_values(self) -> Iterator[Wrong]:
+        """One warns before one stops."""
+        if self.stop < self.warn:
+            yield ("stop",), f"must be at least `warn` ({self.warn:g}, got {self.stop:g})"
+
+
 class SolverSection(Section):
     """How the equations are solved in time."""
 
     end_time: Time = Field(gt=0, description="time at which the run ends")
     shape: Literal["linear", "ugimp"] = Field(
         "ugimp", description="shape functions between particles and grid"
+    )
+    tips: Literal["smooth", "sharp"] = Field(
+        "smooth",
+        description="how the grid feels a crack tip: smooth anywhere in its cell, or sharp by the "
+        "line test alone, as in the papers and NairnMPM",
     )
     update: Update = Field(
         "flip", description="velocity update: flip, pic, fmpm(k) or xpic(k) of order k"
@@ -66,8 +83,8 @@ class SolverSection(Section):
     damping: DampingSection = Field(default_factory=DampingSection, description="damping")
     cfl: Number = Field(0.5, gt=0, le=1, description="share of the longest stable time step")
     dt: Time | None = Field(None, gt=0, description="upper limit of the time step")
-    leaving: Literal["error", "delete", "clamp"] = Field(
-        "error", description="what to do with particles that leave the grid"
+    energy_error: EnergySection = Field(
+        default_factory=EnergySection, description="how far the energy balance may be off"
     )
 
     def wrong_values(self) -> Iterator[Wrong]:

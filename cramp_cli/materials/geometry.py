@@ -1,4 +1,4 @@
-"""Plane strain and plane stress: the strain normal to the plane that a plane problem leaves open."""
+"""Plane strain and plane stress: the strain normal to the plane that a plane leaves open."""
 
 from typing import NamedTuple
 
@@ -23,7 +23,8 @@ class PlaneStress(NamedTuple):
 def strained(geometry, law, turned, dU):
     """Return strain of the step and stress after it (six components each).
 
-    turned: stress before the step, turned with the particle (Pa); dU: step of the displacement gradient
+    turned: stress before the step, turned with the particle (Pa)
+    dU: step of the displacement gradient
     """
 
 

@@ -1,4 +1,7 @@
-"""What a law answers. Every law is written once, in 3D; the analysis fills in what a plane leaves open."""
+"""What a law answers.
+
+Every law is written once, in 3D; the analysis fills in what a plane leaves open.
+"""
 
 from cramp_cli.numerics.dispatch import generic
 
@@ -7,7 +10,8 @@ from cramp_cli.numerics.dispatch import generic
 def kirchhoff_stress(law, turned, strain):
     """Return the Kirchhoff stress (xx, yy, zz, xy, yz, xz; Pa) at the end of a step.
 
-    turned: stress before the step, turned with the particle (Pa); strain: strain of the step, tensor shear
+    turned: stress before the step, turned with the particle (Pa)
+    strain: strain of the step, tensor shear
     """
 
 
@@ -24,3 +28,8 @@ def shear_modulus(law):
 @generic
 def poisson_ratio(law):
     """Return Poisson's ratio for small strains."""
+
+
+def same_law(a, b) -> bool:
+    """Return whether two records are of one law with the same constants."""
+    return type(a) is type(b) and a == b

@@ -23,7 +23,7 @@ def source_hash() -> str:
 
 
 def cache_root() -> Path:
-    """Return the folder for compiled kernels: CRAMP_CACHE_DIR, the user's cache, or a temporary one."""
+    """Return the folder for kernels: CRAMP_CACHE_DIR, the user's cache, or a temporary one."""
     chosen = os.environ.get("CRAMP_CACHE_DIR")
     if chosen:
         return Path(chosen)

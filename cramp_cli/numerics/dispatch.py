@@ -25,7 +25,8 @@ def generic(declaration):
 def by_length(declaration):
     """Turn a declaration into a function with one body per length of its first tuple.
 
-    Bodies are added with ``@name.implement(length)``; the declaration itself serves all other lengths.
+    Bodies are added with ``@name.implement(length)``; the declaration itself serves all other
+    lengths.
     """
     return _dispatched(declaration, len, len, default=declaration)
 

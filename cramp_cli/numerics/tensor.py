@@ -10,8 +10,8 @@ from cramp_cli.numerics.dispatch import by_length
 
 __all__ = [
     "add_outer", "apply", "determinant", "dot", "increment", "matrix", "outer", "outer_sum", "pick",
-    "plus", "product", "rotation_of", "scaled", "solid_strain", "symmetric", "times", "turn", "vector", "work_of",
-    "zero_matrix",
+    "plus", "product", "rotation_of", "scaled", "solid_strain", "symmetric", "times", "turn",
+    "vector", "work_of", "zero_matrix",
 ]  # fmt: skip
 
 

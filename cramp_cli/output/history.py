@@ -26,7 +26,7 @@ HISTORY_COLUMNS = {
     "momentum_x": ("N*s", "momentum of all particles along x"),
     "momentum_y": ("N*s", "momentum of all particles along y"),
 }
-REACTION = ("N", "force of this boundary on the bodies, mean since the row before")
+REACTION = ("N", "force of this boundary on the bodies in the last step before the row")
 
 CRACK_COLUMNS = {
     "step": ("1", "number of time steps done"),
@@ -47,7 +47,7 @@ CRACK_COLUMNS = {
     "J_contour": ("J/m^2", "J integral over a contour on grid lines"),
     "K_I_contour": ("Pa*m^0.5", "K_I from J_contour and the opening of the faces"),
     "K_II_contour": ("Pa*m^0.5", "K_II from J_contour and the opening of the faces"),
-    "J_spread": ("1", "spread of J over several domains, over its mean"),
+    "J_spread": ("1", "largest less smallest J of several domains, over J"),
     "status": ("", "ok, shrunk, closed, or invalid and why"),
 }
 

@@ -109,7 +109,7 @@ class Reporter:
             _to_screen("\n".join(lines))
 
     def _left(self, time: float, wall: float) -> float | None:
-        """Return the seconds to go; the time to compile, before the first line, does not count."""
+        """Return the seconds to go; what was before the first line does not count."""
         time_before, wall_before = self._first or (0.0, 0.0)
         end = None if self._total is None else self._total - time_before
         return seconds_left(wall - wall_before, time - time_before, end)

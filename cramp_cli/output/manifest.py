@@ -72,17 +72,22 @@ class Status:
         self.record: dict = {"status": "running", "step": 0, "time": 0.0, "end_time": end_time}
         self._begun = time.monotonic()
         self._written = 0.0
+        self._first: tuple[float, float] | None = None  # wall time and time of the first numbers
 
     def update(self, **numbers: object) -> None:
         """Take new numbers; write them if the file is older than a second."""
         self.record.update(numbers)
+        if self._first is None and self.record["time"] > 0.0:  # kernels are compiled by now
+            self._first = time.monotonic() - self._begun, self.record["time"]
         if time.monotonic() - self._written >= SECONDS_BETWEEN_STATUS:
             self.write()
 
     def write(self) -> None:
         """Write the newest numbers."""
         wall = time.monotonic() - self._begun
-        left = seconds_left(wall, self.record["time"], self.end_time)
+        before, done = self._first or (0.0, 0.0)
+        end = None if self.end_time is None else self.end_time - done
+        left = seconds_left(wall - before, self.record["time"] - done, end)
         write_json(self.path, {**self.record, "wall_time": wall, "eta": left, "written": now()})
         self._written = time.monotonic()
 

@@ -1,8 +1,8 @@
 """What a shape function answers.
 
 All are products of functions of one axis. A particle sees `support` nodes along each axis, starting
-at `first_node`; S_ip is the product of the axis values, its gradient has one of them replaced by the
-slope (algorithm: Bardenhagen and Kober 2004).
+at `first_node`; S_ip is the product of the axis values, its gradient has one of them replaced by
+the slope (algorithm: Bardenhagen and Kober 2004).
 """
 
 from cramp_cli.numerics.dispatch import by_length, generic

@@ -43,11 +43,10 @@ class Rows(NamedTuple):
     touching: (
         np.ndarray
     )  # (extra, 2) what a row does with the row across each crack: open, slide, stick
-    tip_crack: np.ndarray  # (nodes,) crack whose tip is near a node that is not fully cut, or -1
+    tip: np.ndarray  # (nodes,) tip (2 * crack + end) that is near a node, or -1
     tip_side: np.ndarray  # (nodes,) side of that crack on which the node lies
     tip_segment: np.ndarray  # (nodes,) segment of the crack nearest to the node
-    cut: np.ndarray  # (nodes,) cut share of the node: 0 whole, 1 cut
-    tipped: np.ndarray  # (nodes,) nodes that have a tip_crack
+    tipped: np.ndarray  # (nodes,) nodes that have a tip
     displacement: np.ndarray  # (rows, dim) mass-weighted displacement at shared nodes, kg m
     place: np.ndarray  # (rows, dim) mass-weighted position at shared nodes, kg m
 
@@ -70,10 +69,9 @@ def make_grid(node_count: int, dim: int, extra: int) -> tuple[Grid, Rows]:
         side=np.zeros((extra, 2), dtype=np.int64),
         normal=np.zeros((extra, 2, dim)),
         touching=np.zeros((extra, 2), dtype=np.int64),
-        tip_crack=np.full(node_count, -1, dtype=np.int64),
+        tip=np.full(node_count, -1, dtype=np.int64),
         tip_side=np.zeros(node_count, dtype=np.int64),
         tip_segment=np.zeros(node_count, dtype=np.int64),
-        cut=np.ones(node_count),
         tipped=np.zeros(node_count, dtype=np.int64),
         displacement=vectors(),
         place=vectors(),

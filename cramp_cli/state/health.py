@@ -7,6 +7,10 @@ from cramp_cli.numerics.tensor import determinant, matrix, zero_matrix
 from cramp_cli.state.failure import NumericalFailure
 
 WELL, NOT_A_NUMBER, INVERTED = 0, 1, 2
+CAUSES = (
+    "Likely causes: the time step (lower solver.cfl), a load too large for the material, or "
+    "particles pressed together more than they can bear."
+)
 
 
 @kernel
@@ -38,8 +42,7 @@ def check_health(model, state) -> None:
     }
     raise NumericalFailure(
         f"step {state.step}, t = {state.time:.6g} s: {describe(model, state, p)} {words[what]}.\n"
-        "Likely causes: the time step (lower solver.cfl), a load too large for the material, or "
-        "particles pressed together more than they can bear."
+        f"{CAUSES}"
     )
 
 

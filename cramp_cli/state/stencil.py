@@ -9,8 +9,9 @@ class Stencil(NamedTuple):
     """Place of every particle in the grid at the start of the step, kept for the whole step.
 
     Far from cracks the rows of a particle are its nodes. A particle near a crack has a list of entries:
-    a node, the row of that node, and the share of the weight that goes to this row (1 except at nodes
-    beside a tip, which are part cut, part whole).
+    a node, the row of that node, and the share of the weight that goes to this row: 1, except for a
+    particle that a tip is passing, which is part cut, part whole (tip_nodes.py). The share of such a
+    particle changes from place to place, which adds tilt * S * slope to the gradient of the weight.
     """
 
     base: np.ndarray  # (n,) lowest node of the particle's nodes
@@ -20,6 +21,8 @@ class Stencil(NamedTuple):
     which: np.ndarray  # (listed, 2 * nodes per particle) node of an entry, in the particle's order
     table: np.ndarray  # (listed, 2 * nodes per particle) row of an entry
     share: np.ndarray  # (listed, 2 * nodes per particle) share of the weight that the row takes
+    tilt: np.ndarray  # (listed, 2 * nodes per particle) +1, -1 for the cut and the whole part, else 0
+    slope: np.ndarray  # (listed, dim) gradient of the cut share, per cell
     listed: np.ndarray  # (n,) particles near a crack
     around: np.ndarray  # (n,) particles that may see a node with more than one row
     count: np.ndarray  # (2,) how many of `listed` and `around` are in use
@@ -34,15 +37,17 @@ def make_stencil(n: int, dim: int, nodes_per_particle: int, listed: int) -> Sten
         listed=np.zeros(n, dtype=np.int64),
         around=np.zeros(n, dtype=np.int64),
         count=np.zeros(2, dtype=np.int64),
-        **make_lists(nodes_per_particle, listed),
+        **make_lists(nodes_per_particle, dim, listed),
     )
 
 
-def make_lists(nodes_per_particle: int, listed: int) -> dict:
+def make_lists(nodes_per_particle: int, dim: int, listed: int) -> dict:
     """Return empty lists of entries for `listed` particles."""
     return {
         "entries": np.zeros(listed, dtype=np.int64),
         "which": np.zeros((listed, 2 * nodes_per_particle), dtype=np.int64),
         "table": np.zeros((listed, 2 * nodes_per_particle), dtype=np.int64),
         "share": np.ones((listed, 2 * nodes_per_particle)),
+        "tilt": np.zeros((listed, 2 * nodes_per_particle)),
+        "slope": np.zeros((listed, dim)),
     }

@@ -4,7 +4,7 @@ import numpy as np
 
 from cramp_cli.shapes.shape import locate
 from cramp_cli.state.failure import NumericalFailure
-from cramp_cli.state.health import describe
+from cramp_cli.state.health import CAUSES, describe
 from cramp_cli.transfer import to_grid, to_particles
 
 
@@ -15,11 +15,18 @@ def locate_particles(model, state, scratch) -> None:
         grid = (lattice.lower, model.strides, lattice.nodes, lattice.width)
         gone = locate(scratch.stencil, state.particles.position, b.shape, *grid, b.lo, b.hi)
         if gone >= 0:
-            raise NumericalFailure(
-                f"step {state.step}, t = {state.time:.6g} s: {describe(model, state, gone)} leaves the "
-                "grid.\nMake the grid larger (grid.lower, grid.upper or grid.margin), or look for what "
-                "throws the body out."
-            )
+            raise _failure(model, state, gone)
+
+
+def _failure(model, state, p: int) -> NumericalFailure:
+    """Return what to say of a particle that has no nodes."""
+    text = f"step {state.step}, t = {state.time:.6g} s: {describe(model, state, p)}"
+    if not np.isfinite(state.particles.position[p]).all():
+        return NumericalFailure(f"{text} has a position that is no number.\n{CAUSES}")
+    return NumericalFailure(
+        f"{text} leaves the grid.\nMake the grid larger (grid.lower, grid.upper or grid.margin), "
+        "or look for what throws the body out."
+    )
 
 
 def sum_mass_and_momentum(model, state, scratch) -> None:

@@ -77,6 +77,7 @@ def sum_internal_force(grid, particles, stencil, shape, strides, width, lo, hi):
     stress, volume = particles.stress, particles.volume
     base, local, near = stencil.base, stencil.local, stencil.near
     entries, which, table, share = stencil.entries, stencil.which, stencil.table, stencil.share
+    tilt = stencil.tilt
     steps = offsets(strides, shape)
     for p in range(lo, hi):
         G = gradients(vector(strides, local, p), shape)
@@ -86,9 +87,12 @@ def sum_internal_force(grid, particles, stencil, shape, strides, width, lo, hi):
             for k in range(len(steps)):
                 add(force, first + steps[k], 1.0, apply(pick(G, k), tau))
         else:
+            S = weights(vector(strides, local, p), shape)
+            slope = vector(strides, stencil.slope, line)
             for e in range(entries[line]):
-                f = apply(pick(G, which[line, e]), tau)
-                add(force, table[line, e], share[line, e], f)
+                k = which[line, e]
+                g = plus(times(pick(G, k), share[line, e]), tilt[line, e] * S[k], slope)
+                add(force, table[line, e], 1.0, apply(g, tau))
 
 
 @kernel

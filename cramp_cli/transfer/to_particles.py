@@ -26,7 +26,7 @@ def move_particles(particles, grid, stencil, update, shape, strides, damping, dt
     """Move particles lo..hi and change their velocity.
 
     damping: (grid, particle), 1/s
-    returns: energy taken by the damping (J)
+    returns: energy taken by damping, and by the filter of updates other than FLIP (J)
     """
     x, v, a = particles.position, particles.velocity, particles.acceleration
     m = particles.mass
@@ -51,7 +51,7 @@ def move_particles(particles, grid, stencil, update, shape, strides, damping, dt
                 Sa = plus(Sa, w, vector(strides, acceleration, row))
         V = vector(strides, v, p)
         new, mean = moved(update, V, u, Sa, damping[0], damping[1], dt)
-        free, _ = moved(update, V, u, Sa, 0.0, 0.0, dt)
+        free = plus(V, dt, Sa)
         damped += 0.5 * m[p] * dot(plus(free, -1.0, new), plus(V, 1.0, new))
         for d in range(len(strides)):
             v[p, d] = new[d]
@@ -73,6 +73,7 @@ def update_stress(
     velocity = grid.velocity
     base, local, near = stencil.base, stencil.local, stencil.near
     entries, which, table, share = stencil.entries, stencil.which, stencil.table, stencil.share
+    tilt = stencil.tilt
     steps = offsets(strides, shape)
     zero = zero_matrix(strides)
     for p in range(lo, hi):
@@ -84,9 +85,12 @@ def update_stress(
                 v = vector(strides, velocity, first + steps[k])
                 gradient = add_outer(v, pick(G, k), gradient)
         else:
+            S = weights(vector(strides, local, p), shape)
+            slope = vector(strides, stencil.slope, line)
             for e in range(entries[line]):
-                v = times(vector(strides, velocity, table[line, e]), share[line, e])
-                gradient = add_outer(v, pick(G, which[line, e]), gradient)
+                k, v = which[line, e], vector(strides, velocity, table[line, e])
+                g = plus(times(pick(G, k), share[line, e]), tilt[line, e] * S[k], slope)
+                gradient = add_outer(v, g, gradient)
         gradient = scaled(gradient, 1.0 / width)
         dU = scaled(gradient, part * dt)
         turned = turn(dU, stress, p)

@@ -292,7 +292,7 @@ def places(data, path=()):
         yield from places(value, (*path, key)) if isinstance(value, dict | list) else [(*path, key)]
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 @given(st.data())
 def test_a_changed_deck_is_read_or_refused(tmp_path_factory, data):
     """No change of any value leads to anything but a deck or a DeckError that names something."""

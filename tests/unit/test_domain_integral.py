@@ -1,4 +1,4 @@
-"""J, K_I and K_II of a known field on particles: the field of Williams (1957) by Kolosov's formulas."""
+"""J, K_I and K_II of a known field on particles: that of Williams (1957), by Kolosov's formulas."""
 
 import numpy as np
 import pytest
@@ -29,7 +29,7 @@ R1 = 5.0 * CELL
 def kolosov(K_I, K_II, x, y, hooke):
     """Return displacement gradient (n, 2, 2) and stress (n, 2, 2), crack along negative x.
 
-    2G (u + iv) = kappa phi - z conj(phi') - conj(psi) with phi' = (K_I - i K_II)/(2 sqrt(2 pi z)) and
+    2G (u + iv) = kappa phi - z conj(phi') - conj(psi), phi' = (K_I - i K_II)/(2 sqrt(2 pi z)),
     psi' = conj(phi')(z) - phi' - z phi'' (free faces).
     """
     z = x + 1j * y
@@ -38,7 +38,11 @@ def kolosov(K_I, K_II, x, y, hooke):
     phi2 = -0.5 * phi1 / z
     psi1 = 0.5 * (K_I + 1j * K_II) / root - phi1 - z * phi2
     along = (hooke.kappa * phi1 - phi1.conj() - z * phi2.conj() - psi1.conj()) / (2.0 * hooke.shear)
-    up = 1j * (hooke.kappa * phi1 - phi1.conj() + z * phi2.conj() + psi1.conj()) / (2.0 * hooke.shear)
+    up = (
+        1j
+        * (hooke.kappa * phi1 - phi1.conj() + z * phi2.conj() + psi1.conj())
+        / (2.0 * hooke.shear)
+    )
     H = np.array([[along.real, up.real], [along.imag, up.imag]]).transpose(2, 0, 1)
     total, deviator = 4.0 * phi1.real, 2.0 * (z.conj() * phi2 + psi1)
     yy = 0.5 * (total + deviator.real)
@@ -53,8 +57,8 @@ def turned(angle):
 def field(K_I, K_II, hooke, tip=(0.1, 0.2), crack=0.0, grid=0.0, spin=0.0, per_cell=2):
     """Return particles of a cracked body with the field of a tip, and the frame of the tip.
 
-    crack: angle of the crack; grid: angle by which the particles are turned as well; spin: rotation of
-    the body after it was strained
+    crack: angle of the crack; grid: angle by which the particles are turned as well; spin: rotation
+    of the body after it was strained
     """
     line = (np.arange(-7.0 * per_cell, 7.0 * per_cell) + 0.5) * CELL / per_cell
     X = np.stack(np.meshgrid(line, line), axis=-1).reshape(-1, 2)
@@ -84,7 +88,7 @@ def measure(particles, frame, hooke, radius=R1, gravity=STILL):
 
 
 def test_weight_is_one_then_falls_smoothly_to_zero():
-    """The slope is the derivative (central differences, third derivatives below 60/R^3), without a jump."""
+    """The slope is the derivative (central differences; third derivatives are below 60/R^3)."""
     R0, R = 0.2, 1.0
     assert weight(0.1, R0, R) == (1.0, 0.0)
     for r in (0.2, 1.0):
@@ -123,8 +127,9 @@ def test_signs():
 
 
 MIXES = [(1.0, 0.0), (0.0, 1.0), (0.0, -1.0), (0.8, 0.6), (0.8, -0.6)]
-# Largest error of J, K_I, K_II relative to K over 120 places and angles, by particles along a cell side
-# and radius in cells; found on 2026-01-10 for an exact field: that of the particles as a quadrature.
+# Largest error of J, K_I, K_II relative to K over 120 places and angles, by particles along a cell
+# side and radius in cells. The field is exact, so this is the error of the particles as a quadrature.
+# Found on 2026-11-22 with commit 9bf7d71.
 REACHED = {(1, 5.0): 5e-3, (2, 2.5): 5e-3, (2, 4.0): 8e-4, (2, 5.0): 3.1e-4, (3, 5.0): 7e-5}
 
 

@@ -51,8 +51,12 @@ def opened(points, gaps):
 def test_a_gap_in_proportion_to_the_distance_is_that_of_the_second_particle():
     """The spline (1, 4, 1)/6 reproduces straight lines."""
     away = np.arange(7.0)[:, None] * [0.01, 0.2]
-    np.testing.assert_allclose(opening_near_tip(opened(7, away), 0, START), -2.0 * away[1], rtol=1e-13)
-    np.testing.assert_allclose(opening_near_tip(opened(7, away[::-1]), 0, END), 2.0 * away[1], rtol=1e-13)
+    np.testing.assert_allclose(
+        opening_near_tip(opened(7, away), 0, START), -2.0 * away[1], rtol=1e-13
+    )
+    np.testing.assert_allclose(
+        opening_near_tip(opened(7, away[::-1]), 0, END), 2.0 * away[1], rtol=1e-13
+    )
 
 
 def test_weights_of_the_spline():

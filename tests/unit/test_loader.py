@@ -160,7 +160,7 @@ def test_nothing_in_it(text):
 yamlish = st.text(alphabet="ab:{}[],-?&*!|>'\"#%@ \n\t01.e~é\0", max_size=60)
 
 
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=400)
 @given(st.text(max_size=60) | yamlish)
 @example("a: |\n \tb")
 @example("%YAML 9.9\n--- a")
@@ -168,7 +168,7 @@ def test_random_text_gives_data_or_a_deck_error(text):
     assert "none" not in all_mistakes(lambda: load(text))
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(st.binary(max_size=60))
 def test_random_bytes_give_data_or_a_deck_error(raw):
     assert "none" not in all_mistakes(lambda: load(decode(raw, "d")))

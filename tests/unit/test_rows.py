@@ -6,8 +6,11 @@ from support import build_deck
 
 from cramp_cli.cracks.crossing import make_segments
 from cramp_cli.cracks.fields import find_openings, find_rows
+from cramp_cli.cracks.tip_nodes import cut_share
 from cramp_cli.shapes.shape import offsets, weights
 from cramp_cli.state.grid import make_grid
+from cramp_cli.state.paths import PLAIN, make_paths
+from cramp_cli.state.stencil import make_lists
 from cramp_cli.transfer.sums import locate_particles, sum_mass_and_momentum
 
 SQUARE = {
@@ -32,10 +35,10 @@ def straight(*points, ends="edge"):
     return {"points": [list(map(float, p)) for p in points], "start": ends, "end": ends}
 
 
-def sorted_out(cracks, shape="ugimp", moved=(0.0, 0.0)):
+def sorted_out(cracks, shape="ugimp", moved=(0.0, 0.0), tips="sharp"):
     """Return model, state and scratch with all rows found, particles moved by some cells."""
     named = [{"name": f"c{n}", **crack} for n, crack in enumerate(cracks)]
-    model, state, scratch = build_deck(SQUARE, cracks=named, solver={"shape": shape})
+    model, state, scratch = build_deck(SQUARE, cracks=named, solver={"shape": shape, "tips": tips})
     state.particles.position[:] += moved
     find_all(model, state, scratch)
     return model, state, scratch
@@ -50,15 +53,16 @@ def find_all(model, state, scratch):
 
 def pairs(model, state, scratch):
     """Return particle, node and row of every pair with a weight above zero."""
-    shape = model.blocks[0].shape
-    steps = np.array(offsets(model.strides, shape))
-    nodes = scratch.stencil.base[:, None] + steps
-    rows = nodes.copy()
-    near = scratch.stencil.near
-    rows[near >= 0] = scratch.stencil.table[near[near >= 0]]
-    p = np.repeat(np.arange(len(near)), len(steps))
-    seen = np.ravel([weights(tuple(x), shape) for x in scratch.stencil.local.tolist()]) > 0.0
-    return p[seen], nodes.ravel()[seen], rows.ravel()[seen]
+    stencil, shape = scratch.stencil, model.blocks[0].shape
+    steps, found = offsets(model.strides, shape), []
+    for p, (base, local, line) in enumerate(zip(*stencil[:3], strict=True)):
+        S = weights(tuple(local), shape)
+        places = range(len(steps)) if line < 0 else stencil.which[line, : stencil.entries[line]]
+        for e, k in enumerate(places):
+            if S[k] > 0.0:
+                node = int(base) + steps[k]
+                found.append((p, node, node if line < 0 else int(stencil.table[line, e])))
+    return found
 
 
 def key(scratch, row):
@@ -69,7 +73,10 @@ def key(scratch, row):
 
 def left_of(places, start, end):
     """Return which places lie above a straight crack; those on it do not."""
-    (x, y), (ex, ey) = (places - start).T, np.subtract(end, start) / np.hypot(*np.subtract(end, start))
+    (x, y), (ex, ey) = (
+        (places - start).T,
+        np.subtract(end, start) / np.hypot(*np.subtract(end, start)),
+    )
     return ex * y - ey * x > ON
 
 
@@ -83,7 +90,7 @@ def assert_sorted_by_straight_cracks(model, state, scratch, cracks):
     particle_side = np.array([left_of(here, *e) for e in ends])
     node_side = np.array([left_of(there, *e) for e in ends])
     rows = scratch.rows
-    for p, node, row in zip(*pairs(model, state, scratch), strict=True):
+    for p, node, row in pairs(model, state, scratch):
         wanted = tuple(np.flatnonzero(particle_side[:, p] != node_side[:, node]).tolist())
         assert key(scratch, row) == wanted, f"particle {here[p]}, node {there[node]}"
         if wanted:
@@ -122,14 +129,14 @@ def test_no_row_has_particles_of_both_sides_of_a_crack(crack, moved, shape):
 @pytest.mark.parametrize("at", [(4.0, 4.0), (3.75, 3.75), (3.6, 4.2)])
 @pytest.mark.parametrize("slope", [(1.0, 0.0), (1.0, 1.0), (2.0, 1.0)])
 def test_two_crossing_cracks_make_four_rows(at, slope, shape):
-    """Where two cracks cross, four pieces meet at a node: no, one, the other, both cracks between."""
+    """Where two cracks cross, four pieces meet: none, one, the other, both cracks between."""
     along, across = np.array(slope), np.array([-slope[1], slope[0]])
     cracks = [straight(at - 6 * v, at + 6 * v) for v in (along, across)]
     model, state, scratch = sorted_out(cracks, shape)
     assert_sorted_by_straight_cracks(model, state, scratch, cracks)
     kinds = {}
-    for _, node, row in zip(*pairs(model, state, scratch), strict=True):
-        kinds.setdefault(int(node), set()).add(key(scratch, row))
+    for _, node, row in pairs(model, state, scratch):
+        kinds.setdefault(node, set()).add(key(scratch, row))
     assert max(map(len, kinds.values())) == 4
 
 
@@ -151,8 +158,8 @@ def test_no_row_has_particles_of_both_sides_of_a_bent_crack(corners, shape):
     line = np.array(corners, dtype=float)
     above = np.array([_above(line, x) for x in state.particles.position])
     sides = {}
-    for p, _, row in zip(*pairs(model, state, scratch), strict=True):
-        sides.setdefault(int(row), set()).add(bool(above[p]))
+    for p, _, row in pairs(model, state, scratch):
+        sides.setdefault(row, set()).add(bool(above[p]))
     assert [row for row, both in sides.items() if len(both) > 1] == []
     assert scratch.rows.count[2] == 0
 
@@ -174,19 +181,20 @@ def _above(line, point):
 @SHAPES
 @pytest.mark.parametrize("at", [(4.0, 4.0), (4.1, 3.8)])
 def test_three_cracks_that_meet_part_three_pieces(at, shape):
-    """A star of three cracks with a common point: no row has particles of two of the three pieces."""
+    """Three cracks with a common point: no row has particles of two of the three pieces."""
     angles = np.radians([90.0, 210.0, 330.0])
     rays = [np.array([np.cos(a), np.sin(a)]) for a in angles]
     cracks = [
-        {"points": [list(at), (at + 7 * ray).tolist()], "start": "plain", "end": "edge"} for ray in rays
+        {"points": [list(at), (at + 7 * ray).tolist()], "start": "plain", "end": "edge"}
+        for ray in rays
     ]
     model, state, scratch = sorted_out(cracks, shape)
     away = state.particles.position - at
     piece = np.floor((np.degrees(np.arctan2(away[:, 1], away[:, 0])) - 90.0) % 360.0 / 120.0)
     seen = {}
-    for p, _, row in zip(*pairs(model, state, scratch), strict=True):
+    for p, _, row in pairs(model, state, scratch):
         if min(abs(away[p, 0] * ray[1] - away[p, 1] * ray[0]) for ray in rays) > ON:
-            seen.setdefault(int(row), set()).add(int(piece[p]))
+            seen.setdefault(row, set()).add(int(piece[p]))
     assert [row for row, pieces in seen.items() if len(pieces) > 1] == []
 
 
@@ -199,7 +207,7 @@ def test_a_third_crack_is_counted():
 
 @pytest.mark.parametrize("seed", range(3))
 def test_the_order_of_particles_does_not_matter(seed):
-    """Sums per node and cracks crossed are the same; they are added up in another order (8 numbers)."""
+    """Sums per node and cracks crossed are the same, but for the order in which they add up."""
     cracks = [straight((-1, 4), (9, 4)), straight((4.1, -1), (3.3, 9))]
     model, state, scratch = sorted_out(cracks)
     wanted = _sums(model, state, scratch)
@@ -215,13 +223,13 @@ def test_the_order_of_particles_does_not_matter(seed):
 def _sums(model, state, scratch):
     """Return mass, place and normal directions of the rows, by node and cracks crossed."""
     rows, found = scratch.rows, {}
-    for _, node, row in zip(*pairs(model, state, scratch), strict=True):
+    for _, node, row in pairs(model, state, scratch):
         place, normal = (0.0, 0.0), (0.0,) * 4
         if rows.first[node] >= 0:
             place = rows.place[row]
         if row >= len(rows.first):
             normal = rows.normal[row - len(rows.first)].ravel()
-        found[int(node), key(scratch, row)] = (scratch.grid.mass[row], *place, *normal)
+        found[node, key(scratch, row)] = (scratch.grid.mass[row], *place, *normal)
     return found
 
 
@@ -251,8 +259,57 @@ def test_room_for_rows_grows_with_the_cracks():
     """Arrays that are too short are made longer, and nothing is lost."""
     crack = straight((-1, 4), (9, 4))
     model, state, scratch = sorted_out([crack])
-    scratch.stencil = scratch.stencil._replace(table=scratch.stencil.table[:3].copy())
+    scratch.stencil = scratch.stencil._replace(**make_lists(9, 2, 3))
     scratch.grid, scratch.rows = make_grid(model.lattice.node_count, 2, 5)
     scratch.segments = make_segments(model.lattice.node_count, 20, 7)
     find_all(model, state, scratch)
     assert_sorted_by_straight_cracks(model, state, scratch, [crack])
+
+
+@SHAPES
+@pytest.mark.parametrize("tip", [4.0, 4.3, 4.45, 4.9])
+@pytest.mark.parametrize("height", [4.0, 3.75, 3.6])
+def test_part_cut_particles_give_their_whole_weight(tip, height, shape):
+    """cracks/tip_nodes.py: shares of a pair add up to 1; rows of a side hold particles of that side."""
+    crack = straight((-1, height), (tip, height), ends="plain")
+    model, state, scratch = sorted_out([crack], shape, tips="smooth")
+    stencil, rows = scratch.stencil, scratch.rows
+    shares = [s for n, s in zip(stencil.entries, stencil.share, strict=True) for s in s[:n]]
+    assert 0.0 < min(shares) < 1.0
+    for line in range(stencil.count[0]):
+        n = stencil.entries[line]
+        which, share, tilt = (
+            lists[line, :n] for lists in (stencil.which, stencil.share, stencil.tilt)
+        )
+        np.testing.assert_allclose(np.bincount(which, share), 1.0, rtol=1e-15)
+        assert not np.bincount(which, tilt).any()
+    count = scratch.row_count
+    assert scratch.grid.mass[:count].sum() == pytest.approx(state.particles.mass.sum(), rel=1e-14)
+    for p, _, row in pairs(model, state, scratch):
+        if row >= len(rows.first):
+            above = state.particles.position[p, 1] > height + ON
+            assert rows.side[row - len(rows.first), 0] == (1 if above else -1)
+
+
+@pytest.mark.parametrize("ramp", [0.5, 1.5])
+@pytest.mark.parametrize("half", [0.5, 0.25])
+def test_the_cut_share_rises_behind_a_tip(half, ramp):
+    """From 0 to 1, without a jump; its gradient is the difference of shares (it is piecewise quadratic).
+
+    The crack ends at 4.3, the share begins to rise 0.1 cells ahead of it.
+    """
+    line = np.array([[0.0, 4.0], [2.0, 4.0], [4.3, 4.0]])
+    paths = make_paths([line], [(PLAIN, PLAIN)], [0], [(-1, 0)], 2)
+
+    def share(x):
+        return cut_share(paths, 1, x, 4.2, (half, half), 1.0, 0.1, ramp)
+
+    begin, step = 4.4 + half, 1e-5
+    assert share(begin) == (0.0, 0.0, 0.0)
+    assert share(begin - ramp - 2 * half) == pytest.approx((1.0, 0.0, 0.0), abs=1e-14)
+    places = np.linspace(begin - ramp - 2 * half, begin, 24)[1:-1]
+    shares = [share(x)[0] for x in places]
+    assert np.all(np.diff(shares) < 0.0)
+    for x in places:
+        slope = (share(x + step)[0] - share(x - step)[0]) / (2 * step)
+        assert share(x)[1] == pytest.approx(slope, abs=step / (ramp * half))

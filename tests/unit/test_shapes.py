@@ -60,10 +60,10 @@ def in_space(shape, lattice, cells):
 
 @ALL_SHAPES
 @DIMENSIONS
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(cells=st.tuples(place, place, place))
 def test_a_constant_and_a_linear_field_are_exact(shape, dim, cells):
-    """sum S = 1, sum G = 0, sum S x_i = x, sum x_i G = 1: all of round-off (coordinates below 5)."""
+    """sum S = 1, sum G = 0, sum S x_i = x, sum x_i G = 1, to round-off (coordinates below 5)."""
     S, G, x_i, x = in_space(shape, LATTICES[dim], cells)
     assert S.sum() == pytest.approx(1.0, abs=10 * ROUND_OFF)
     np.testing.assert_allclose(G.sum(axis=0), 0.0, atol=20 * ROUND_OFF)
@@ -72,7 +72,7 @@ def test_a_constant_and_a_linear_field_are_exact(shape, dim, cells):
 
 
 @ALL_SHAPES
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(x=place)
 def test_weights_are_never_negative(shape, x):
     assert min(value for value, _ in on_axis(shape, x).values()) >= 0.0
@@ -103,7 +103,7 @@ def test_gimp_slopes_have_no_jump(half, border):
 @ALL_SHAPES
 @DIMENSIONS
 def test_gradients_are_differences_of_weights(shape, dim):
-    """Central differences are exact where weights are quadratic; the places avoid changes of formula."""
+    """Central differences are exact for quadratics; the places avoid changes of formula."""
     step, lattice = 1e-4, LATTICES[dim]
     cells = np.array([2.0 + 1 / 16, 1.0 + 5 / 16, 3.0 - 3 / 16])[:dim]
     _, G, _, _ = in_space(shape, lattice, cells)
@@ -116,7 +116,7 @@ def test_gradients_are_differences_of_weights(shape, dim):
 
 
 @pytest.mark.parametrize("half", HALVES)
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(x=place)
 def test_gimp_is_the_mean_of_linear_functions_over_the_particle(half, x):
     """S = (1/2l) int N, G = (N(x + l) - N(x - l))/2l (Bardenhagen and Kober 2004, box particles).
@@ -133,7 +133,7 @@ def test_gimp_is_the_mean_of_linear_functions_over_the_particle(half, x):
         assert slope == pytest.approx((N[-1] - N[0]) / (2.0 * half), abs=40 * ROUND_OFF)
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(x=place)
 def test_linear_is_the_hat_of_the_nearest_nodes(x):
     for node, (value, _) in on_axis(SHAPES["linear"]((0.25,)), x).items():
@@ -142,10 +142,10 @@ def test_linear_is_the_hat_of_the_nearest_nodes(x):
 
 @ALL_SHAPES
 @DIMENSIONS
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(cells=st.tuples(place, place, place), share=st.tuples(*[st.floats(-1.0, 1.0)] * 3))
 def test_a_point_of_a_particle_has_linear_weights_at_its_nodes(shape, dim, cells, share):
-    """A point in the particle's box (the particle itself where it has none): sum S x_i is the point."""
+    """A point in the particle's box, or the particle where it has none: sum S x_i is the point."""
     lattice = LATTICES[dim]
     _, _, x_i, x = in_space(shape, lattice, cells)
     box = shape.half[0] if isinstance(shape, UniformGimp) else 0.0

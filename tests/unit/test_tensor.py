@@ -123,7 +123,7 @@ def test_turn_rotates_stress_by_the_cayley_transform_of_the_spin(dim):
 
 @DIMENSIONS
 def test_turn_is_the_rotation_of_the_spin_to_second_order(dim):
-    """tan(angle/2) = w/2, so the angle is short of the spin w by w^3/12: twice that times the stress."""
+    """tan(angle/2) = w/2: the angle is short of the spin w by w^3/12; twice that times stress."""
     dU = 0.02 * numbers(dim, dim)
     row, T = stresses(dim)
     W = solid(0.5 * (dU - dU.T))
@@ -132,7 +132,7 @@ def test_turn_is_the_rotation_of_the_spin_to_second_order(dim):
     assert np.linalg.norm(wrong, 2) < 1.01 * w**3 / 6.0 * np.linalg.norm(T, 2)
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(st.lists(st.floats(-10.0, 10.0), min_size=9, max_size=9))
 def test_any_turn_keeps_the_principal_stresses(entries):
     """A rotation leaves eigenvalues alone; sums of nine products of numbers below 1, twice."""

@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
-from support import build_deck
+from support import advance, build_deck
 
-from cramp_cli.cracks.tips import crack_length, hooke_at, sample_tips, tips_of
-from cramp_cli.simulation import find_rows, locate_particles
+from cramp_cli.cracks.fields import find_rows
+from cramp_cli.cracks.tips import block_at, crack_length, hooke_of, sample_tips, tips_of
+from cramp_cli.transfer.sums import locate_particles
 
 PLATE = """
 cramp: 1
@@ -75,16 +76,127 @@ def test_another_crack_shrinks_the_domain():
     assert rows["c1", "start"]["status"].startswith("shrunk: the edge")
 
 
+def rectangle(x0, y0, x1, y1):
+    return {"type": "rectangle", "lower": [x0, y0], "upper": [x1, y1]}
+
+
+def pieces(*materials):
+    """Return a plate of 30 x 20 whose right half is another body."""
+    shapes = rectangle(0, 0, 15, 20), rectangle(15, 0, 30, 20)
+    parts = enumerate(zip(materials, shapes, strict=True))
+    return [{"name": f"b{n}", "material": m, "shape": s} for n, (m, s) in parts]
+
+
 def test_constants_are_those_of_the_material_at_the_tip():
     """Plane stress: kappa = (3 - nu)/(1 + nu), E' = E, nu/(1 + nu) for nu."""
-    right = {"type": "rectangle", "lower": [15, 0], "upper": [30, 20]}
-    left = {"type": "rectangle", "lower": [0, 0], "upper": [30, 20]}
-    bodies = [
-        {"name": "one", "material": "soft", "shape": left},
-        {"name": "two", "material": "hard", "shape": right},
-    ]
-    model, state, _ = build_deck(PLATE, bodies=bodies)
+    model, state, _ = build_deck(PLATE, bodies=pieces("soft", "hard"))
     for x, E, nu in ((14.9, 2.0, 0.25), (15.1, 20.0, 0.4)):
-        got = hooke_at(model, state.particles, np.array([x, 10.0]))
+        law = block_at(model, state.particles, np.array([x, 10.0])).law
         wanted = (E / (2 + 2 * nu), (3 - nu) / (1 + nu), nu / (1 + nu), E)
-        assert tuple(got) == pytest.approx(wanted, rel=1e-13)
+        assert tuple(hooke_of(law, model.geometry)) == pytest.approx(wanted, rel=1e-13)
+
+
+def test_the_angle_is_in_radians():
+    """As columns.json says: to the upper left, three quarters of pi."""
+    assert sampled(inner((20, 5), (15, 10)))["c0", "end"]["angle"] == pytest.approx(3 * np.pi / 4)
+
+
+def test_a_radius_that_is_too_small_is_named():
+    """Below 2.5 cells there is no number; 2.5 cells are enough."""
+    crack = inner((0, 10), (15, 10), start="edge")
+    for radius, word in (([2.4], "invalid: the radius is below 2.5 cells"), ([2.5], "ok")):
+        row = sampled(crack, fracture={"radius": radius, "methods": ["domain"]})["c0", "end"]
+        assert row["status"] == word
+
+
+def test_radii_to_compare_keep_away_from_obstacles():
+    """Nothing left to compare: the spread is no number, and not zero."""
+    crack, radii = inner((8, 10), (15, 10)), [3.0, 8.0]
+    row = sampled(crack, fracture={"radius": radii, "methods": ["domain"]})["c0", "end"]
+    assert row["status"] == "ok"
+    assert np.isnan(row["J_spread"])
+
+
+def test_a_tip_on_another_crack_has_no_room():
+    rows = sampled(inner((0, 10), (15, 10), start="edge"), inner((15, 5), (15, 15)))
+    assert rows["c0", "end"]["status"].startswith("invalid: crack c1 is nearer than 5 cells")
+
+
+LAYERED = inner((0, 10), (12, 10), start="edge")  # its tip is 3 cells before the second half
+
+
+@pytest.mark.parametrize(("materials", "contour", "word"), [
+    (("soft", "twin"), 2, "ok"),
+    (("soft", "hard"), 2, "shrunk: another material within 5 cells"),
+    (("soft", "heavy"), 3, "ok"),
+    (("heavy", "soft"), 3, "ok"),
+    (("soft", "hard"), 3, "shrunk: another material within 5 cells; "
+     "contour invalid: another material lies within the contour"),
+])  # fmt: skip
+def test_materials_are_told_apart_by_their_law(materials, contour, word):
+    """Two names for one law are one material; another density does no harm."""
+    soft = {"law": "elastic", "density": 1, "E": 2, "nu": 0.25}
+    more = {"twin": soft, "heavy": {**soft, "density": 3}}
+    fracture = {"contour": {"cells": contour}}
+    bodies = pieces(*materials)
+    row = sampled(LAYERED, bodies=bodies, materials=more, fracture=fracture)["c0", "end"]
+    assert row["status"] == word
+
+
+def test_the_edge_of_the_body_is_told_from_another_material():
+    """A hole beside the tip, cut into the second half."""
+    hole = {"name": "gap", "hole": True, "shape": rectangle(15, 0, 22, 20)}
+    bodies = [*pieces("soft", "hard"), hole]
+    row = sampled(LAYERED, bodies=bodies, fracture={"methods": ["domain"]})
+    assert row["c0", "end"]["status"].startswith("shrunk: the edge of the body")
+
+
+def pulled(axis, low, high, mirror, **more):
+    """Return J, K_I, K_II of a plate that is pulled apart across an edge crack, after 60 steps.
+
+    axis: the normal of the crack; low, high: where the plate ends along it
+    """
+
+    def turned(along, across):
+        return [along, across] if axis == 1 else [across, along]
+
+    shape = {"type": "rectangle", "lower": turned(0, low), "upper": turned(20, high)}
+    where = "xy"[axis]
+    load = {"type": "traction", "body": "plate"}
+    crack = inner(turned(0, 0), turned(10.3, 0), start="edge", contact={"law": "ignore"})
+    model, state, scratch = build_deck(
+        PLATE,
+        bodies=[{"name": "plate", "material": "soft", "shape": shape}],
+        cracks=[{"name": "c", **crack}],
+        loads=[
+            load | {"where": {where: at}, "traction": turned(0, 1e-3 if at > 0 else -1e-3)}
+            for at in (low, high)
+            if at
+        ],
+        boundary=[{"where": {where: 0}, "symmetry": True}] if mirror else [],
+        **more,
+    )
+    advance(model, state, scratch, 60)
+    return sample_tips(model, state, scratch)[0]
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+def test_a_crack_on_a_symmetry_plane_has_half_a_domain(axis):
+    """The other half is its image: J and K_I are those of the whole plate, K_II is none."""
+    whole = pulled(axis, -8, 8, mirror=False)
+    assert whole["K_I"] > 0.0
+    for low, high in ((0, 8), (-8, 0)):
+        half = pulled(axis, low, high, mirror=True)
+        for name in ("J", "K_I", "J_spread"):
+            assert half[name] == pytest.approx(whole[name], rel=1e-9)
+        assert half["K_II"] == 0.0
+        assert half["status"] == "contour invalid: the crack lies on a symmetry plane"
+
+
+def test_the_end_of_a_symmetry_plane_is_an_obstacle():
+    """Beyond it the body is free, and no half of a cracked one."""
+    sides = {"bodies": [{"name": "b", "material": "soft", "shape": rectangle(0, 0, 30, 20)}]}
+    crack = inner((0, 0), (15, 0), start="edge", contact={"law": "ignore"})
+    plane = {"where": {"y": 0, "x": [0, 18]}, "symmetry": True}
+    row = sampled(crack, boundary=[plane], fracture={"methods": ["domain"]}, **sides)["c0", "end"]
+    assert row["status"] == "shrunk: the end of a symmetry plane within 5 cells"

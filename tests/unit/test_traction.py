@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
-from support import advance, build_deck
+from support import build_deck
 
 from cramp_cli.boundary.conditions import add_loads, book_tractions
 from cramp_cli.boundary.traction import traction_power
+from cramp_cli.cracks.fields import find_openings, find_rows
 from cramp_cli.transfer.sums import locate_particles, sum_mass_and_momentum
 from cramp_cli.transfer.to_grid import clear
 
@@ -33,11 +34,17 @@ def loaded(load, per_cell=2, shape="ugimp", time=0.0, cracks=()):
     body = {"name": "beam", "material": "m", "particles_per_cell": per_cell}
     body["shape"] = {"type": "rectangle", "lower": [0, 1], "upper": [4, 3]}
     load = {"type": "traction", "body": "beam"} | load
-    sections = {"loads": [load], "bodies": [body], "cracks": list(cracks), "solver": {"shape": shape}}
+    sections = {
+        "loads": [load],
+        "bodies": [body],
+        "cracks": list(cracks),
+        "solver": {"shape": shape},
+    }
     model, state, scratch = build_deck(BEAM, **sections)
-    if cracks:
-        advance(model, state, scratch, 1)
     locate_particles(model, state, scratch)
+    find_rows(model, state, scratch)
+    sum_mass_and_momentum(model, state, scratch)
+    find_openings(model, state, scratch)
     clear(scratch.grid.force, scratch.row_count)
     add_loads(model, scratch, time)
     return model, state, scratch

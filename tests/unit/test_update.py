@@ -1,4 +1,4 @@
-"""From the grid to particles: free fall, damping and the orders of FMPM and XPIC (algorithm.md 1.3, 1.4)."""
+"""From the grid to particles: free fall, damping, FMPM and XPIC (algorithm.md 1.3, 1.4)."""
 
 from dataclasses import replace
 
@@ -54,9 +54,11 @@ def test_free_fall_is_exact(update, strain):
 
 
 @UPDATES
-@pytest.mark.parametrize("damping", [{"particle": 3.0}, {"grid": 3.0}, {"grid": 1.0, "particle": 2.0}])
+@pytest.mark.parametrize(
+    "damping", [{"particle": 3.0}, {"grid": 3.0}, {"grid": 1.0, "particle": 2.0}]
+)
 def test_damping_brakes_by_its_share_and_books_what_it_takes(update, damping):
-    """Uniform motion: v falls by the factor 1 - 3 dt in each step, x by the mean of both velocities."""
+    """v falls by the factor 1 - 3 dt in each step; x moves by the mean of both velocities."""
     model, state, scratch = build_deck(STONE, solver={"update": update, "damping": damping})
     p, m = state.particles, state.particles.mass
     before = 0.5 * m @ np.sum(p.velocity**2, axis=1)
@@ -70,7 +72,7 @@ def test_damping_brakes_by_its_share_and_books_what_it_takes(update, damping):
 
 
 def test_formulas():
-    """algorithm.md 1.3 with numbers: V = 1, u = 3, a = 10, dt = 0.1, grid damping 2, particle damping 0.5.
+    """algorithm.md 1.3: V = 1, u = 3, a = 10, dt = 0.1, damping 2 (grid) and 0.5 (particle).
 
     vm is the grid velocity at the start of the step for FLIP and XPIC: 3 - 10 * 0.1 = 2.
     """
@@ -91,8 +93,8 @@ def test_formulas():
 def test_orders_are_the_series_of_what_a_round_trip_loses(kind, order):
     """v(k) = sum_l (1 - S+ S)^l v_L with S+ = M^-1 S^T m (Nairn and Hammerquist 2021), as matrices.
 
-    FMPM starts from v_L = p+/m; XPIC from p+/m - a dt, with a dt added in the end. Random velocities and
-    forces.
+    FMPM starts from v_L = p+/m; XPIC from p+/m - a dt, with a dt added in the end. Velocities and
+    forces are random.
     """
     model, state, scratch = build_deck(STONE)
     chance = np.random.default_rng(5)

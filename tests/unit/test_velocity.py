@@ -35,8 +35,8 @@ def test_momentum_of_held_rows(grid):
 def test_force_that_brings_held_rows_to_their_velocity(grid):
     """p + f dt = m v: f = (2 * 4 - 1)/0.1 = 70, of which 63 come from the boundary.
 
-    Its work is force times the mean velocity (4 + 0.5)/2 times dt: with the other 7 N it is the change of
-    kinetic energy, 16 - 1/4.
+    Its work is force times the mean velocity (4 + 0.5)/2 times dt: with the other 7 N it is the
+    change of kinetic energy, 16 - 1/4.
     """
     reaction, work = hold_force(grid, HELD, 2, 0, 4.0, 0.1)
     assert grid.force[:, 0] == pytest.approx([70.0, 9.0, 0.0])
@@ -56,7 +56,7 @@ def test_higher_orders_leave_held_components_alone(grid):
 
 
 def struck(crack_at, where, per_cell=2, steps=1):
-    """Return model, state, scratch and held rows of a plate with a crack from its left edge, after a step."""
+    """Return model, state, scratch and held rows of a plate with a notch, after some steps."""
     crack = {"name": "notch", "points": [[0.0, crack_at], [4.2, crack_at]], "start": "edge"}
     body = {"name": "plate", "material": "m", "particles_per_cell": per_cell}
     body["shape"] = {"type": "rectangle", "lower": [0, 0], "upper": [8, 8]}
@@ -109,7 +109,7 @@ def test_the_far_side_of_a_struck_edge_feels_nothing_at_first():
 
 
 def test_the_reaction_is_the_rate_of_momentum():
-    """A body at rest gets its momentum from the boundary alone (particle momentum = sum of m_i v_i)."""
+    """A body at rest gets its momentum from the boundary alone."""
     model, state, scratch, _ = struck(4.0, {"x": 0.0, "y": [-1.0, 4.0]})
     p = state.particles
     given = state.reactions[0, 0] * model.dt

@@ -1,0 +1,72 @@
+"""When a solution is no longer one, and how that is said."""
+
+import numpy as np
+import pytest
+from support import build_deck, read
+
+from cramp_cli.simulation import SETTLED, Books
+from cramp_cli.state.failure import NumericalFailure
+from cramp_cli.transfer.sums import locate_particles
+
+BLOCK = """
+cramp: 1
+analysis: plane_strain
+grid: {cell: 1}
+materials: {m: {law: elastic, density: 1, E: 3, nu: 0}}
+bodies: [{name: block, material: m, shape: {type: rectangle, lower: [0, 0], upper: [8, 6]}}]
+solver: {end_time: 1}
+"""
+
+
+@pytest.mark.parametrize(("place", "words", "others"), [
+    ([np.nan, 1.0], "has a position that is no number.\nLikely causes: the time step", "leaves"),
+    ([1.0, np.inf], "has a position that is no number.\nLikely causes: the time step", "leaves"),
+    ([1.0, 99.0], "leaves the grid.\nMake the grid larger", "no number"),
+])  # fmt: skip
+def test_a_particle_without_nodes_is_named(place, words, others):
+    model, state, scratch = build_deck(BLOCK)
+    state.particles.position[7] = place
+    with pytest.raises(NumericalFailure) as caught:
+        locate_particles(model, state, scratch)
+    assert words in str(caught.value)
+    assert others not in str(caught.value)
+
+
+class Ears:
+    def __init__(self):
+        self.heard = []
+
+    def message(self, level, text):
+        self.heard.append((level, text))
+
+
+def judged(error, **solver):
+    """Return what is said when the balance is off by a share."""
+    _, state, _ = build_deck(BLOCK)
+    state.step, ears = SETTLED, Ears()
+    books = Books(state, read(BLOCK, solver=solver).solver)
+    books.error = error
+    books.judge(state, ears)
+    books.judge(state, ears)
+    return ears.heard
+
+
+def test_the_energy_balance_is_judged_by_the_limits_of_the_deck():
+    """One percent and ten if the deck does not say; one warning is enough."""
+    assert judged(0.0099) == []
+    assert [level for level, _ in judged(-0.011)] == ["warning"]
+    assert judged(0.3, energy_error={"warn": 0.5, "stop": 0.5}) == []
+    for limits in ({}, {"energy_error": {"stop": 0.02}}):
+        with pytest.raises(NumericalFailure, match=r"off by -11 %"):
+            judged(-0.11, **limits)
+
+
+@pytest.mark.parametrize(("update", "words"), [
+    ("flip", "Lower solver.cfl"),
+    ("fmpm(2)", "What the filter of fmpm(2) takes is in damping_energy"),
+])  # fmt: skip
+def test_the_advice_is_that_for_the_update(update, words):
+    with pytest.raises(NumericalFailure) as caught:
+        judged(0.2, update=update)
+    assert words in str(caught.value)
+    assert "solver.energy_error.stop: 0.1" in str(caught.value)
