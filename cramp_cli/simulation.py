@@ -111,8 +111,8 @@ class Books:
     def _advice(self) -> str:
         if self.update == "flip":
             return "Lower solver.cfl, use more particles per cell or a finer grid"
-        known = f"What the filter of {self.update} takes is in damping_energy and no part of this"
-        return f"{known}.\nUse flip, more particles per cell or a finer grid"
+        known = f"What {self.update} filters from particles is in damping_energy and no part of this"
+        return f"{known}.\nUse flip, a ramp instead of a step, or a finer grid"
 
 
 def simulate(deck, model, state, outputs, reporter, *, profile=False) -> Summary:
@@ -227,7 +227,7 @@ class _Run:
 
     def _tell_strange_rows(self) -> None:
         """Say once when pairs of particle and node could not be told apart by the cracks."""
-        wrong, crowded = (int(n) for n in self.scratch.rows.count[2:])
+        wrong, crowded = (int(n) for n in self.scratch.rows.count[2:4])
         if wrong:
             self._tell("wrong side", f"{wrong} particle-node pairs see a crack from its wrong side")
         if crowded:

@@ -19,7 +19,7 @@ from cramp_cli.transfer.update import Flip, Fmpm, Xpic
 
 GEOMETRIES = {"plane_strain": PlaneStrain, "plane_stress": PlaneStress}
 SHAPES = {"linear": Linear, "ugimp": UniformGimp}
-TIPS = {"smooth": TipNodes(centre=0.06, ramp=1.0), "sharp": None}
+TIPS = {"smooth": TipNodes(centre=0.03, ramp=1.0), "sharp": None}
 ENDS = {"plain": PLAIN, "edge": EDGE, "tip": TIP}
 ON_PLANE = 1e-6  # cells
 

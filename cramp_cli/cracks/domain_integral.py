@@ -13,7 +13,8 @@ from typing import NamedTuple
 from cramp_cli.cracks.williams import unit_slope, unit_stress
 from cramp_cli.numerics.kernel import kernel
 
-INNER = 0.2  # R0/R1
+INNER = 0.2  # R0/R1 of a large domain
+NEAR_TIP = 2.0  # cells around a tip that are its own: q is 1 there, so they hardly count
 
 
 class TipFrame(NamedTuple):
@@ -31,6 +32,11 @@ class Hooke(NamedTuple):
     kappa: float  # Kolosov's constant
     plane_nu: float  # nu in plane strain, nu/(1 + nu) in plane stress
     stiffness: float  # E' with J = K^2/E' (Pa)
+
+
+def inner_radius(R1, width):
+    """Return R0 (m): beyond what a tip does to the cells around it, but at most half of R1."""
+    return min(max(INNER * R1, NEAR_TIP * width), 0.5 * R1)
 
 
 @kernel

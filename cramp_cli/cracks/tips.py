@@ -15,9 +15,9 @@ import numpy as np
 from cramp_cli.cracks.contact import GLUED, IGNORE, OPEN
 from cramp_cli.cracks.contour_integral import along, integrate_contour
 from cramp_cli.cracks.domain_integral import (
-    INNER,
     Hooke,
     TipFrame,
+    inner_radius,
     integral_of_weight,
     integrate_domain,
     material_beside,
@@ -209,16 +209,17 @@ def _spread(J, others) -> float:
 
 def domain_values(model, particles, site, radius):
     """Return J, K_I, K_II of a domain, and what spoils it: an empty text if it is full."""
+    inner = inner_radius(radius, model.lattice.width)
     sums, own = np.zeros(4), 0.0
     for b in model.blocks:
         part = integrate_domain(
-            particles, site.frame, site.hooke, site.gravity, INNER * radius, radius, b.lo, b.hi
+            particles, site.frame, site.hooke, site.gravity, inner, radius, b.lo, b.hi
         )
         sums += part
         own += part[3] if same_law(b.law, site.block.law) else 0.0
     per_length = (2.0 if site.half else 1.0) / model.geometry.thickness
     J, K_I, K_II, filled = (per_length * sums).tolist()
-    expected = integral_of_weight(INNER * radius, radius)
+    expected = integral_of_weight(inner, radius)
     spoiled = ""
     if abs(filled / expected - 1.0) >= LEAK:
         spoiled = "the edge of the body"

@@ -9,6 +9,8 @@ import re
 from fractions import Fraction
 from functools import lru_cache
 
+from cramp_cli.numerics.cache import cache_root
+
 COMMON = (
     *("m", "mm", "um", "nm", "cm", "km", "in", "ft", "s", "ms", "us", "ns", "min", "h"),
     *("kg", "g", "t", "lb", "N", "kN", "MN", "lbf", "Pa", "kPa", "MPa", "GPa", "psi", "ksi", "bar"),
@@ -85,6 +87,12 @@ def _named(name: str) -> tuple[Fraction, dict[str, float]]:
 
 @lru_cache(maxsize=1)
 def _registry():
+    """Return the units known to pint; kept on disk once read, which saves half of their start."""
     import pint
 
-    return pint.UnitRegistry(non_int_type=Fraction)
+    folder = cache_root() / "units"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        return pint.UnitRegistry(non_int_type=Fraction, cache_folder=folder)
+    except OSError:
+        return pint.UnitRegistry(non_int_type=Fraction)

@@ -140,6 +140,25 @@ def test_check_answers_in_json(cramp, here):
     assert any("plane_strian" in mistake for mistake in bad["mistakes"])
 
 
+def test_check_builds_the_model(cramp, here):
+    """A load on nothing is a mistake of the deck, with its line, though only the model shows it."""
+    deck = (here / "plate.yaml").read_text().replace("{y: 20 mm}, total", "{y: 21 mm}, total")
+    (here / "above.yaml").write_text(deck)
+    code, out, err = cramp("check", "above.yaml")
+    assert (code, out) == (3, "")
+    assert "above.yaml:14:" in err
+    assert "loads.0.where: holds no particle of body plate" in err
+    assert cramp("run", "above.yaml", "--progress", "none")[0] == 3
+
+
+def test_check_does_not_build_what_is_large(cramp, solver):
+    solver.needs["memory_bytes"] = 2 * 10**9
+    code, out, err = cramp("check", "plate.yaml")
+    assert (code, out, solver.built) == (0, "plate.yaml: no mistakes\n", 0)
+    assert "plate.yaml: too large to be built by check" in err
+    assert json.loads(cramp("check", "--json", "plate.yaml")[1])[0]["notes"] != []
+
+
 def test_check_reports_what_a_run_takes(cramp, solver):
     code, out, _ = cramp("check", "--report", "plate.yaml")
     assert code == 0

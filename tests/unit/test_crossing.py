@@ -188,6 +188,7 @@ def test_whole_cells_do_not_matter(line, particle, i, j):
 
 @settings(max_examples=300)
 @given(line=lines(quarter), particle=st.tuples(quarter, quarter), i=near, j=near)
+@example([(0.0, 0.0), (0.0, 0.25), (0.25, 0.0)], (0.0, 0.25), 0, 1)  # a bend on the particle
 def test_ties_are_those_of_a_crack_a_hair_above(line, particle, i, j):
     """The rule of cracks/crossing.py, with exact fractions: the crack 1e-6 cells to its left.
 

@@ -63,7 +63,7 @@ def test_the_energy_balance_is_judged_by_the_limits_of_the_deck():
 
 @pytest.mark.parametrize(("update", "words"), [
     ("flip", "Lower solver.cfl"),
-    ("fmpm(2)", "What the filter of fmpm(2) takes is in damping_energy"),
+    ("fmpm(2)", "What fmpm(2) filters from particles is in damping_energy"),
 ])  # fmt: skip
 def test_the_advice_is_that_for_the_update(update, words):
     with pytest.raises(NumericalFailure) as caught:
