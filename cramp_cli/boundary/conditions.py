@@ -120,6 +120,7 @@ def meet_rows(conditions, scratch, width) -> None:
                 m.crack,
                 m.place,
                 segments.ends,
+                segments.down,
                 segments.crack,
                 count,
                 width,

@@ -85,7 +85,7 @@ def reflect_mass(mass, rows, crack, outside, inside):
 
 
 @kernel
-def find_open_nodes(free, rows, on, mirror_axis, crack, place, ends, owner, count, width):
+def find_open_nodes(free, rows, on, mirror_axis, crack, place, ends, down, owner, count, width):
     """Mark the nodes of the plane that its crack cuts: there the body is free.
 
     free: (n,) written; ends, owner: segments of all cracks and the crack of each
@@ -99,9 +99,9 @@ def find_open_nodes(free, rows, on, mirror_axis, crack, place, ends, owner, coun
             py += 0.1 * width
         for s in range(count):
             if owner[s] == crack:
-                hit = crosses(ends, s, px, py, place[i, 0], place[i, 1], ON_CRACK * width)
+                hit = crosses(ends, down, s, px, py, place[i, 0], place[i, 1], ON_CRACK * width)
                 back = crosses(
-                    ends, s, 2.0 * place[i, 0] - px, 2.0 * place[i, 1] - py,
+                    ends, down, s, 2.0 * place[i, 0] - px, 2.0 * place[i, 1] - py,
                     place[i, 0], place[i, 1], ON_CRACK * width,
                 )  # fmt: skip
                 if hit != 0 or back != 0:

@@ -247,7 +247,7 @@ class _Walk:
         n = [low + lattice.width * c for low, c in zip(lattice.lower, there, strict=True)]
         found = []
         for s in range(int(segments.used[0])):
-            if crosses(segments.real, s, *p, *n, ON_CRACK * lattice.width):
+            if crosses(segments.real, segments.down, s, *p, *n, ON_CRACK * lattice.width):
                 if segments.crack[s] == self.crack:
                     found.append(_fraction(p, n, segments.real[s]))
                 else:

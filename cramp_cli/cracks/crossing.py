@@ -15,6 +15,7 @@ from cramp_cli.numerics.kernel import kernel
 from cramp_cli.state.paths import EDGE
 
 ON_CRACK = 1e-9  # a point closer to a crack than this (cells) lies on it
+HAIR = 1e-6  # a point on a vertex is taken to lie this far below it (cells)
 EXTENSION = 4.0  # an edge end is carried on by this many segment lengths
 
 
@@ -23,6 +24,7 @@ class Segments(NamedTuple):
 
     ends: np.ndarray  # (segments, 4) x, y of both ends (m), tips carried on
     real: np.ndarray  # (segments, 4) the same with tips where they are
+    down: np.ndarray  # (segments, 4) a hair below the crack at both ends, the same for neighbours (m)
     crack: np.ndarray  # (segments,) crack of each segment, ascending
     head: np.ndarray  # (nodes,) first entry of the list of a cell (by its lowest node), or -1
     item: np.ndarray  # (entries,) segment of an entry
@@ -36,6 +38,7 @@ def make_segments(node_count: int, segment_count: int, entries: int) -> Segments
     return Segments(
         ends=np.zeros((segment_count, 4)),
         real=np.zeros((segment_count, 4)),
+        down=np.zeros((segment_count, 4)),
         crack=np.zeros(segment_count, dtype=np.int64),
         head=np.full(node_count, -1, dtype=np.int64),
         item=np.zeros(entries, dtype=np.int64),
@@ -52,18 +55,46 @@ def double_area(ax, ay, bx, by, cx, cy):
 
 
 @kernel
-def crosses(ends, s, px, py, nx, ny, tolerance):
+def off_crack(segments, cell, x, y, tolerance):
+    """Return a point moved a hair below the segment it lies on, if it lies on one."""
+    ends, entry = segments.ends, segments.head[cell]
+    while entry >= 0:
+        s = segments.item[entry]
+        dx, dy = ends[s, 2] - ends[s, 0], ends[s, 3] - ends[s, 1]
+        size = np.hypot(dx, dy)
+        along = ((x - ends[s, 0]) * dx + (y - ends[s, 1]) * dy) / size
+        away = abs(dx * (y - ends[s, 1]) - dy * (x - ends[s, 0])) / size
+        if away < tolerance and tolerance < along < size - tolerance:
+            hair = HAIR / ON_CRACK * tolerance
+            return x + hair * dy / size, y - hair * dx / size
+        entry = segments.next[entry]
+    return x, y
+
+
+@kernel
+def off_vertex(ends, down, s, x, y, tolerance):
+    """Return a point moved a hair below the crack if it lies on an end of segment `s`."""
+    if abs(x - ends[s, 0]) < tolerance and abs(y - ends[s, 1]) < tolerance:
+        return x + down[s, 0], y + down[s, 1]
+    if abs(x - ends[s, 2]) < tolerance and abs(y - ends[s, 3]) < tolerance:
+        return x + down[s, 2], y + down[s, 3]
+    return x, y
+
+
+@kernel
+def crosses(ends, down, s, px, py, nx, ny, tolerance):
     """Return the side of p (+1 above, -1 below) if p -> n crosses segment `s`, else 0.
 
     tolerance: distance within which a point lies on the segment's line (m)
     """
     ax, ay, bx, by = ends[s, 0], ends[s, 1], ends[s, 2], ends[s, 3]
+    px, py = off_vertex(ends, down, s, px, py, tolerance)
+    nx, ny = off_vertex(ends, down, s, nx, ny, tolerance)
     limit = tolerance * (abs(bx - ax) + abs(by - ay))
     p_above = double_area(ax, ay, bx, by, px, py) > limit
     n_above = double_area(ax, ay, bx, by, nx, ny) > limit
     if p_above == n_above:
         return 0
-    # Seen from the node, so that a vertex on the node gives exactly zero.
     a_left = double_area(nx, ny, px, py, ax, ay) >= 0.0
     b_left = double_area(nx, ny, px, py, bx, by) >= 0.0
     if a_left == b_left:
@@ -87,15 +118,15 @@ def crossed_cracks(segments, cell, px, py, nx, ny, tolerance):
     entry = segments.head[cell]
     while entry >= 0:
         crack = owner[item[entry]]
-        odd, side, seg = False, 0, -1
+        side, up, down = 0, -1, -1  # crossings alternate along the line: their sum is the side of p
         while entry >= 0 and owner[item[entry]] == crack:
-            hit = crosses(ends, item[entry], px, py, nx, ny, tolerance)
-            if hit != 0:
-                odd = not odd
-                if seg < 0:
-                    side, seg = hit, item[entry]
+            hit = crosses(ends, segments.down, item[entry], px, py, nx, ny, tolerance)
+            side += hit
+            up, down = item[entry] if hit > 0 else up, item[entry] if hit < 0 else down
             entry = following[entry]
-        if odd:
+        seg = up if side > 0 else down
+        if side % 2 != 0:
+            side = 1 if side > 0 else -1
             if a < 0:
                 a, side_a, seg_a = crack, side, seg
             elif b < 0:
@@ -106,7 +137,28 @@ def crossed_cracks(segments, cell, px, py, nx, ny, tolerance):
 
 
 @kernel
-def lay_out_segments(segments, paths, beyond_tip):
+def find_down(down, s, point, k, first, last, hair):
+    """Set the hair below both ends of segment k -> k+1: across the mean of the segments that meet."""
+    for end in range(2):
+        i, j = max(k + end - 1, first), min(k + end + 1, last)
+        dx, dy = unit_sum(point, i, k + end, j)
+        down[s, 2 * end], down[s, 2 * end + 1] = hair * dy, -hair * dx
+
+
+@kernel
+def unit_sum(point, i, at, j):
+    """Return the sum of the directions i -> at and at -> j; one of them where they are the same."""
+    total = (0.0, 0.0)
+    for a, b in ((i, at), (at, j)):
+        dx, dy = point[b, 0] - point[a, 0], point[b, 1] - point[a, 1]
+        size = np.hypot(dx, dy)
+        if size > 0.0:
+            total = (total[0] + dx / size, total[1] + dy / size)
+    return total
+
+
+@kernel
+def lay_out_segments(segments, paths, beyond_tip, hair):
     """Copy the segments of all cracks, edge ends carried on, and tips by `beyond_tip` (m)."""
     point, start, kinds = paths.point, paths.start, paths.ends
     n = 0
@@ -127,6 +179,7 @@ def lay_out_segments(segments, paths, beyond_tip):
                 segments.ends[n, 2 * end] = point[at, 0] + sign * on_tip * dx
                 segments.ends[n, 2 * end + 1] = point[at, 1] + sign * on_tip * dy
             segments.crack[n] = c
+            find_down(segments.down, n, point, k, start[c], start[c + 1] - 1, hair)
             n += 1
     return n
 
@@ -134,8 +187,9 @@ def lay_out_segments(segments, paths, beyond_tip):
 @kernel
 def cell_range(low, high, lower, width, cells, grown):
     """Return first and last cell of an axis between two coordinates, grown and clipped."""
-    first = int(np.floor((low - lower) / width)) - grown
-    last = int(np.floor((high - lower) / width)) + grown
+    # A segment on a grid line belongs to the cells on both sides of it.
+    first = int(np.floor((low - lower) / width - HAIR)) - grown
+    last = int(np.floor((high - lower) / width + HAIR)) + grown
     return max(first, 0), min(last, cells - 1)
 
 
@@ -151,7 +205,7 @@ def list_segments(segments, paths, cells, width, lower, strides, growth, zone_gr
     head, item, following, zone = segments.head, segments.item, segments.next, segments.zone
     head[:] = -1
     zone[:] = 0
-    count = lay_out_segments(segments, paths, beyond_tip)
+    count = lay_out_segments(segments, paths, beyond_tip, HAIR * width)
     line = segments.ends
     entries = 0
     for s in range(count - 1, -1, -1):  # pushed to the front, so that lists ascend

@@ -9,7 +9,7 @@ both sides share.
 
 import numpy as np
 
-from cramp_cli.cracks.crossing import ON_CRACK, crossed_cracks
+from cramp_cli.cracks.crossing import ON_CRACK, crossed_cracks, off_crack
 from cramp_cli.cracks.tip_nodes import cut_share
 from cramp_cli.numerics.kernel import kernel
 from cramp_cli.numerics.tensor import vector
@@ -247,13 +247,14 @@ def assign_rows(
         cell = base[p]
         for d in range(len(strides)):
             cell += int(np.floor(local[p, d])) * strides[d]
-        x = vector(strides, position, p)
+        x = off_crack(segments, cell, position[p, 0], position[p, 1], ON_CRACK * width)
         corner = (base[p] % nodes_along[0], base[p] // strides[1])
         known, cut = -1, 1.0
         for k in range(len(steps)):
             nx = lower[0] + width * (corner[0] + k % side)
             ny = lower[1] + width * (corner[1] + k // side)
             node = base[p] + steps[k]
+            nx, ny = off_crack(segments, cell, nx, ny, ON_CRACK * width)
             crossed = crossed_cracks(segments, cell, x[0], x[1], nx, ny, ON_CRACK * width)
             tip = rows.tip[node]
             if tip < 0:

@@ -75,7 +75,8 @@ def solver(monkeypatch):
 
     for name, parts in {
         "cramp_cli.build": {"build": build, "estimate": estimate},
-        "cramp_cli.simulation": {"simulate": simulate, "warm_up": lambda: None},
+        "cramp_cli.simulation": {"simulate": simulate},
+        "cramp_cli.warm": {"run_small_cases": lambda: None},
     }.items():
         module = ModuleType(name)
         module.__dict__.update(parts)

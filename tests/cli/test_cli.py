@@ -146,7 +146,7 @@ def test_check_builds_the_model(cramp, here):
     (here / "above.yaml").write_text(deck)
     code, out, err = cramp("check", "above.yaml")
     assert (code, out) == (3, "")
-    assert "above.yaml:14:" in err
+    assert "above.yaml:16:39:" in err
     assert "loads.0.where: holds no particle of body plate" in err
     assert cramp("run", "above.yaml", "--progress", "none")[0] == 3
 

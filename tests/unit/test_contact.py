@@ -220,6 +220,14 @@ def test_higher_orders_of_the_velocity_respect_contact(state, shared):
         np.testing.assert_allclose(after[:, axis], wanted, atol=1e-15)
 
 
+def met_in_turn(mass, velocity):
+    """Velocities of rows 0, a, b, ab after pairs 0-a, 0-b, b-ab, a-ab took their common ones."""
+    velocity = np.array(velocity, dtype=float)
+    for pair_ in ([1, 0], [2, 0], [3, 2], [3, 1]):
+        velocity[pair_] = mass[pair_] @ velocity[pair_] / mass[pair_].sum()
+    return velocity
+
+
 def test_four_rows_of_two_crossing_cracks():
     """Glued twice, rows 0, a, b, ab: pairs 0-a, 0-b, b-ab and a-ab meet once, in this order.
 
@@ -232,8 +240,23 @@ def test_four_rows_of_two_crossing_cracks():
     grid.mass[:] = (1.0, 2.0, 3.0, 4.0)
     grid.momentum[:, 0] = (1.0, -2.0, 6.0, 2.0)
     two = ContactLaws(np.array([GLUED] * 2), np.zeros(2), np.zeros(2))
-    wanted, m = grid.momentum[:, 0].copy(), grid.mass
-    for i, j in ((1, 0), (2, 0), (3, 2), (3, 1)):
-        wanted[[i, j]] = m[[i, j]] * wanted[[i, j]].sum() / m[[i, j]].sum()
+    wanted = met_in_turn(grid.mass, grid.momentum[:, 0] / grid.mass)
     touch(grid, rows, two, STRIDES, DT, LAST)
-    np.testing.assert_allclose(grid.momentum[:, 0], wanted, rtol=1e-14)
+    np.testing.assert_allclose(grid.momentum[:, 0] / grid.mass, wanted, rtol=1e-14)
+
+
+@pytest.mark.parametrize("order", [(0, 1, 2), (2, 1, 0), (1, 2, 0)])
+def test_higher_orders_do_not_depend_on_which_row_was_found_first(order):
+    """Rows are found in the order of particles; four glued ones meet in that of their cracks."""
+    crossed = ((0, 1, NONE, 0), (1, 1, NONE, 0), (0, 1, 1, 1))
+    grid, rows = make_grid(1, 2, 3)
+    made = {n: add_row(rows, 0, *crossed[n]) for n in order}
+    rows.normal[:], rows.touching[:, 0], rows.touching[made[2] - 1, 1] = DOWN, STUCK, STUCK
+    place = [0, *(made[n] for n in range(3))]
+    grid.mass[place] = (1.0, 2.0, 3.0, 4.0)
+    increment, wanted = np.zeros((4, 2)), (1.0, -2.0, 6.0, 2.0)
+    increment[place, 0] = wanted
+    touch_increment(increment, grid, rows, laws(GLUED), STRIDES)
+    np.testing.assert_allclose(
+        increment[place, 0], met_in_turn(grid.mass[place], wanted), rtol=1e-14
+    )

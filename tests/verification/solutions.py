@@ -48,9 +48,14 @@ def vibrating_bar(x, t, v0, mode, length, E, rho):
     return v0 * np.cos(b * bar_speed(E, rho) * t) * np.sin(b * x)
 
 
-def incline_acceleration(angle, mu, g=9.81):
-    """Acceleration of a rigid block along an incline: g (sin - mu cos), 0 where friction holds it."""
-    return max(0.0, g * (np.sin(angle) - mu * np.cos(angle)))
+def incline_slide(t, angle, mu, ramp, g=9.81):
+    """Way and velocity of a rigid block along an incline under gravity that rises from 0 to `ramp` (s).
+
+    The acceleration g (sin - mu cos) rises with it; the block stays where friction holds it. After the
+    ramp: a (t^2/2 - ramp t/2 + ramp^2/6); with ramp = 0 this is a t^2/2.
+    """
+    a = max(0.0, g * (np.sin(angle) - mu * np.cos(angle)))
+    return a * (t**2 / 2.0 - ramp * t / 2.0 + ramp**2 / 6.0), a * (t - ramp / 2.0)
 
 
 def center_crack(sigma, a, half_width):
