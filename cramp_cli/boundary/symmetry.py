@@ -37,7 +37,7 @@ def image_row(rows, nodes, row, image, crack):
     if row < nodes:
         return image
     a, b = rows.crack[row - nodes, 0], rows.crack[row - nodes, 1]
-    if crack in (a, b):
+    if crack >= 0 and crack in (a, b):
         return -1
     other = rows.first[image]
     while other >= 0:

@@ -159,7 +159,7 @@ def unit_sum(point, i, at, j):
 
 @kernel
 def lay_out_segments(segments, paths, beyond_tip, hair):
-    """Copy the segments of all cracks, edge ends carried on, and tips by `beyond_tip` (m)."""
+    """Copy the segments of all cracks, edge ends carried on, tips by `beyond_tip` (m, per crack)."""
     point, start, kinds = paths.point, paths.start, paths.ends
     n = 0
     for c in range(len(start) - 1):
@@ -172,7 +172,7 @@ def lay_out_segments(segments, paths, beyond_tip, hair):
                 outermost = (end == 0 and k == start[c]) or (end == 1 and k == last)
                 edge = outermost and kinds[c, end] == EDGE
                 on = EXTENSION if edge else 0.0
-                on_tip = beyond_tip / size if outermost and not edge else on
+                on_tip = beyond_tip[c] / size if outermost and not edge else on
                 sign = 2 * end - 1
                 segments.real[n, 2 * end] = point[at, 0] + sign * on * dx
                 segments.real[n, 2 * end + 1] = point[at, 1] + sign * on * dy

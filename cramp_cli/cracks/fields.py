@@ -3,7 +3,7 @@
 import numpy as np
 
 from cramp_cli.cracks.advect import move_cracks
-from cramp_cli.cracks.contact import sum_displacement
+from cramp_cli.cracks.contact import GLUED, sum_displacement
 from cramp_cli.cracks.crossing import list_segments, make_segments
 from cramp_cli.cracks.rows import (
     assign_rows,
@@ -49,7 +49,8 @@ def _rows_fit(scratch, state, model) -> bool:
     grid = (lattice.cells, lattice.width, lattice.lower, strides)
     blended = tips is not None
     growth = 2 if blended else 1
-    beyond = EXTENSION * lattice.width if blended else 0.0
+    smooth = blended & (model.contact.kind != GLUED)  # a glued crack is no crack
+    beyond = EXTENSION * lattice.width * smooth
     zone = 2 * support(shape) + growth - 1
     if not list_segments(segments, state.paths, *grid, growth, zone, beyond):
         wanted = 2 * int(segments.used[2])
@@ -62,7 +63,7 @@ def _rows_fit(scratch, state, model) -> bool:
         return False
     forget_rows(rows)
     if blended:
-        mark_tip_nodes(rows, state.paths, segments, *grid)
+        mark_tip_nodes(rows, state.paths, segments, smooth, *grid)
     place = (strides, lattice.nodes, lattice.width, lattice.lower)
     ramp = (tips.centre, tips.ramp) if blended else (0.0, 1.0)
     position, paths = state.particles.position, state.paths

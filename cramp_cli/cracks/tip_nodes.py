@@ -18,8 +18,9 @@ from cramp_cli.numerics.kernel import kernel
 from cramp_cli.state.paths import EDGE
 
 REACH = 5  # cells around a tip whose nodes are looked at
-BEHIND = 3.5  # cells behind a tip within which a node may see a particle that is part cut
+BEHIND = 3.0  # cells behind a tip within which a node may see a particle that is part cut
 LATERAL = 2.0  # cells from the line of the crack beyond which no particle sees both sides of a node
+LEAST = 1e-3  # a smaller cut or whole share is none: a row must not hold next to nothing
 EXTENSION = 3.0  # cells by which a tip is carried on to tell the sides ahead of it
 
 
@@ -80,8 +81,12 @@ def cut_share(paths, tip, x, y, half, width, centre, ramp):
     behind = centre - ahead / width
     low, low_sum = rise(behind - reach, ramp)
     high, high_sum = rise(behind + reach, ramp)
-    slope = -0.5 * (high - low) / reach
-    return min(max(0.5 * (high_sum - low_sum) / reach, 0.0), 1.0), slope * ex, slope * ey
+    cut, slope = 0.5 * (high_sum - low_sum) / reach, -0.5 * (high - low) / reach
+    if cut < LEAST:
+        return 0.0, 0.0, 0.0
+    if cut > 1.0 - LEAST:
+        return 1.0, 0.0, 0.0
+    return cut, slope * ex, slope * ey
 
 
 @kernel
@@ -93,13 +98,16 @@ def forget_tips(rows):
 
 
 @kernel
-def mark_tip_nodes(rows, paths, segments, cells, width, lower, strides):
-    """Find the nodes around every tip; a node between two tips belongs to the nearer one."""
+def mark_tip_nodes(rows, paths, segments, smooth, cells, width, lower, strides):
+    """Find the nodes around every tip; a node between two tips belongs to the nearer one.
+
+    smooth: (cracks,) whether the tips of a crack are
+    """
     forget_tips(rows)
     point, start, ends = paths.point, paths.start, paths.ends
     for tip in range(2 * (len(start) - 1)):
         c, end = tip // 2, tip % 2
-        if ends[c, end] == EDGE:
+        if ends[c, end] == EDGE or not smooth[c]:
             continue
         first, last = start[c], start[c + 1] - 1
         at = first if end == 0 else last

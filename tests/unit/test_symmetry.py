@@ -112,7 +112,7 @@ OPEN_ALONG = crack([[0.0, -0.5], [0.0, 2.7]], "ignore")
         ((), ()),
         across(5.3, "ignore"),
         across(5.3, "glued"),
-        across(2.2, "ignore"),
+        across(4.4, "ignore"),  # a smooth tip wants four cells to a plane that its crack crosses
         ((OPEN_ALONG,), (OPEN_ALONG,)),
     ],
     ids=["no crack", "open across", "glued across", "short across", "open along"],
