@@ -111,7 +111,9 @@ class Books:
     def _advice(self) -> str:
         if self.update == "flip":
             return "Lower solver.cfl, use more particles per cell or a finer grid"
-        known = f"What {self.update} filters from particles is in damping_energy and no part of this"
+        known = (
+            f"What {self.update} filters from particles is in damping_energy and no part of this"
+        )
         return f"{known}.\nUse flip, a ramp instead of a step, or a finer grid"
 
 

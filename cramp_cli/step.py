@@ -1,7 +1,7 @@
 """The way of one time step (Nairn 2003, section 3; Sulsky, Chen, Schreyer 1994).
 
-Read from top to bottom; docs/theory/step.md has a paragraph for each title. What a line does, in which
-rows, is in the module it comes from.
+Read from top to bottom; docs/theory/step.md has a paragraph for each title. What a line does, in
+which rows, is in the module it comes from.
 """
 
 from cramp_cli.boundary.conditions import (

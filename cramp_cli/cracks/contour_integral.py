@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from cramp_cli.cracks.crossing import ON_CRACK, crosses
-from cramp_cli.cracks.rows import crossed_row
+from cramp_cli.cracks.rows import crossed_row, find_row
 from cramp_cli.materials.law import same_law
 from cramp_cli.numerics.kernel import kernel
 from cramp_cli.numerics.tensor import matrix, product, rotation_of, vector, zero_matrix
@@ -41,7 +41,8 @@ def sum_fields(sums, particles, stencil, shape, strides, box, nodes, lo, hi):
     """Add mass-weighted fields of particles lo..hi to the rows of the nodes in a box.
 
     sums: (box nodes + extra rows, 11): mass, du_x/dx, du_x/dy, du_y/dx, du_y/dy, stress xx, yy, xy,
-    energy density, kinetic energy density, and volume over mass. The gradient is R F R^T - 1: it must hold the rotation.
+    energy density, kinetic energy density, and volume over mass. The gradient is R F R^T - 1: it
+    must hold the rotation.
     """
     stress, volume, mass = particles.stress, particles.volume, particles.mass
     base, local, near = stencil.base, stencil.local, stencil.near
@@ -168,8 +169,7 @@ class _Walk:
                 b.hi,
             )
         self.cell = model.lattice.width**2 * model.geometry.thickness
-        self.volume, mass = sums[:, 10].copy(), sums[:, 0]
-        self.fields = sums[:, :10] / np.where(mass > 0.0, mass, 1.0)[:, None]
+        self.volume, self.sums = sums[:, 10], sums[:, :10]
         self.crossings = 0
         self.other_cracks = 0
         self.empty = 0
@@ -219,26 +219,41 @@ class _Walk:
         first = 0.5 * f * width * (_integrand(a, normal) + _integrand(before, normal))
         return first + 0.5 * (1 - f) * width * (_integrand(after, normal) + _integrand(b, normal))
 
-    def _local(self, at):
-        return at[0] - self.box.i + (at[1] - self.box.j) * self.box.wide
+    def _place(self, at, row):
+        """Return where the sums of a row of the node `at` stand."""
+        if row < self.nodes:
+            return at[0] - self.box.i + (at[1] - self.box.j) * self.box.wide
+        return self.box.wide * self.box.high + row - self.nodes
+
+    def _mean(self, at, *rows):
+        """Return the means over all particles in some rows of a node; zero where nobody is."""
+        total = sum(self.sums[self._place(at, row)] for row in rows if row >= 0)
+        return total / total[0] if np.any(total) else np.zeros(self.sums.shape[1])
 
     def _own(self, at):
-        """Fields of the side on which the node lies."""
-        own = self._local(at)
-        node = at[0] + at[1] * self.model.strides[1]
-        volume, row = self.volume[own], self.scratch.rows.first[node]
+        """Fields of the side on which the node lies; beside a tip two rows stand for it."""
+        rows, node = self.scratch.rows, at[0] + at[1] * self.model.strides[1]
+        self._look_for_body(at, node)
+        if rows.tip[node] < 0:
+            return self._mean(at, node)
+        cut = find_row(rows, node, rows.tip[node] // 2, rows.tip_side[node], -1, 0)
+        return self._mean(at, node, cut)
+
+    def _look_for_body(self, at, node):
+        """Count a node that sees less than a full cell."""
+        volume, row = self.volume[self._place(at, node)], self.scratch.rows.first[node]
         while row >= 0:
-            volume += self.volume[self.box.wide * self.box.high + row - self.nodes]
+            volume += self.volume[self._place(at, row)]
             row = self.scratch.rows.next[row - self.nodes]
         self.empty += volume < FULL * self.cell
-        return self.fields[own]
 
     def _across(self, at):
         """Fields of the other side of the crack at a node; zero where nobody is."""
-        row = crossed_row(self.scratch.rows, at[0] + at[1] * self.model.strides[1], self.crack)
-        if row < 0:
-            return np.zeros(self.fields.shape[1])
-        return self.fields[self.box.wide * self.box.high + row - self.nodes]
+        rows, node = self.scratch.rows, at[0] + at[1] * self.model.strides[1]
+        if rows.tip[node] // 2 != self.crack:
+            return self._mean(at, crossed_row(rows, node, self.crack))
+        cut = find_row(rows, node, self.crack, -rows.tip_side[node], -1, 0)
+        return self._mean(at, node, cut)
 
     def _crossing(self, here, there):
         """Return how far along the edge the crack crosses it, or None."""

@@ -24,7 +24,9 @@ class Segments(NamedTuple):
 
     ends: np.ndarray  # (segments, 4) x, y of both ends (m), tips carried on
     real: np.ndarray  # (segments, 4) the same with tips where they are
-    down: np.ndarray  # (segments, 4) a hair below the crack at both ends, the same for neighbours (m)
+    down: (
+        np.ndarray
+    )  # (segments, 4) a hair below the crack at both ends, the same for neighbours (m)
     crack: np.ndarray  # (segments,) crack of each segment, ascending
     head: np.ndarray  # (nodes,) first entry of the list of a cell (by its lowest node), or -1
     item: np.ndarray  # (entries,) segment of an entry
@@ -138,7 +140,7 @@ def crossed_cracks(segments, cell, px, py, nx, ny, tolerance):
 
 @kernel
 def find_down(down, s, point, k, first, last, hair):
-    """Set the hair below both ends of segment k -> k+1: across the mean of the segments that meet."""
+    """Set the hair below both ends of segment k -> k+1, across the mean of segments that meet."""
     for end in range(2):
         i, j = max(k + end - 1, first), min(k + end + 1, last)
         dx, dy = unit_sum(point, i, k + end, j)
@@ -159,7 +161,7 @@ def unit_sum(point, i, at, j):
 
 @kernel
 def lay_out_segments(segments, paths, beyond_tip, hair):
-    """Copy the segments of all cracks, edge ends carried on, tips by `beyond_tip` (m, per crack)."""
+    """Copy the segments of all cracks; edges go on, tips by `beyond_tip` (m, one per crack)."""
     point, start, kinds = paths.point, paths.start, paths.ends
     n = 0
     for c in range(len(start) - 1):

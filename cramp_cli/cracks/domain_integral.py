@@ -94,9 +94,7 @@ def material_beside(particles, frame, length, lo, hi):
     X, volume = particles.origin, particles.volume
     above, below = 0.0, 0.0
     for p in range(lo, hi):
-        x, y = local_vector(
-            frame.before, X[p, 0] - frame.origin[0], X[p, 1] - frame.origin[1]
-        )
+        x, y = local_vector(frame.before, X[p, 0] - frame.origin[0], X[p, 1] - frame.origin[1])
         if -length < x < 0.0 and abs(y) < length:
             along = weight(abs(x + 0.5 * length), 0.0, 0.5 * length)[0]
             w = volume[p] * along * weight(abs(y), 0.0, length)[0]

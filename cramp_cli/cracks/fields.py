@@ -1,6 +1,4 @@
-"""Cracks in a step: the rows of particles near them, and their motion. Arrays grow when they must."""
-
-import numpy as np
+"""Cracks in a step: the rows of particles near them, and their motion; arrays grow if need be."""
 
 from cramp_cli.cracks.advect import move_cracks
 from cramp_cli.cracks.contact import GLUED, sum_displacement
@@ -59,7 +57,9 @@ def _rows_fit(scratch, state, model) -> bool:
     listed = find_particles_near_cracks(stencil, segments, strides, len(stencil.entries))
     if listed > len(stencil.entries):
         per_particle = stencil.which.shape[1] // 2
-        scratch.stencil = stencil._replace(**make_lists(per_particle, len(strides), listed + listed // 4))
+        scratch.stencil = stencil._replace(
+            **make_lists(per_particle, len(strides), listed + listed // 4)
+        )
         return False
     forget_rows(rows)
     if blended:

@@ -1,10 +1,10 @@
 """Give every particle-node pair its row: one velocity field for each side of the cracks.
 
-A row of a node is told by the cracks that the lines from its particles cross and the sides they come
-from, so the result does not depend on the order of particles, any number of cracks may meet at a node,
-and contact acts between rows that differ by exactly one crack. A particle that a tip is passing is part
-cut (tip_nodes.py): it gives a share of its weight to the row of its side and the rest to the row that
-both sides share.
+A row of a node is told by the cracks that the lines from its particles cross and the sides they
+come from, so the result does not depend on the order of particles, any number of cracks may meet at
+a node, and contact acts between rows that differ by exactly one crack. A particle that a tip is
+passing is part cut (tip_nodes.py): it gives a share of its weight to the row of its side and the
+rest to the row that both sides share.
 """
 
 import numpy as np
@@ -12,13 +12,12 @@ import numpy as np
 from cramp_cli.cracks.crossing import ON_CRACK, crossed_cracks, off_crack
 from cramp_cli.cracks.tip_nodes import cut_share
 from cramp_cli.numerics.kernel import kernel
-from cramp_cli.numerics.tensor import vector
 from cramp_cli.shapes.shape import node_steps, offsets
 
 
 @kernel
 def find_particles_near_cracks(stencil, segments, strides, listed_capacity):
-    """List the particles that must test for cracks, and those that may see a node with several rows.
+    """List the particles that must test for cracks, and those that may see nodes with several rows.
 
     returns: number of particles to list, larger than `listed_capacity` if the table is too short
     """
@@ -60,9 +59,10 @@ def find_row(rows, node, a, side_a, b, side_b):
     row = rows.first[node]
     while row >= 0:
         e = row - nodes
-        if rows.crack[e, 0] == a and rows.crack[e, 1] == b:
-            if rows.side[e, 0] == side_a and (b < 0 or rows.side[e, 1] == side_b):
-                return row
+        same_cracks = rows.crack[e, 0] == a and rows.crack[e, 1] == b
+        same_sides = rows.side[e, 0] == side_a and (b < 0 or rows.side[e, 1] == side_b)
+        if same_cracks and same_sides:
+            return row
         row = rows.next[e]
     return -1
 
@@ -134,8 +134,8 @@ def _comes_first(rows, e, a, side_a, b, side_b):
 def join_row(rows, node, a, side_a, b, side_b):
     """Return the row of a pair that crosses cracks a and b from the given sides.
 
-    A pair that comes from the wrong side of a crack (a crack folded within a cell) is counted and kept
-    without that crack. At a node beside a tip both sides have rows, and none is wrong.
+    A pair that comes from the wrong side of a crack (a crack folded within a cell) is counted and
+    kept without that crack. At a node beside a tip both sides have rows, and none is wrong.
     """
     if a < 0:
         return node
@@ -235,7 +235,18 @@ def give_shares(stencil, rows, ends, line, k, node, crossed, cut):
 
 @kernel
 def assign_rows(
-    stencil, rows, segments, paths, position, shape, strides, nodes_along, width, lower, centre, ramp
+    stencil,
+    rows,
+    segments,
+    paths,
+    position,
+    shape,
+    strides,
+    nodes_along,
+    width,
+    lower,
+    centre,
+    ramp,
 ):
     """List the rows of all particles near cracks; rows too many are counted, not made."""
     listed, base, local = stencil.listed, stencil.base, stencil.local

@@ -1,12 +1,14 @@
 """Particles beside a tip are part cut, so that a tip is felt at any place within its cell.
 
-With the line test alone a pair of particle and node falls from whole to cut at once when the tip passes
-it: the jump across the crack ends abruptly somewhere around the tip, up to a third of a cell ahead of
-it, by an amount that changes from node to node and with the height of the crack in its cell. Here the
-cut share q of a particle rises from 0 at the tip to 1 some way behind it. The particle gives q S to the
-row of its side and (1 - q) S to the row that both sides share, at every node around the tip. So the
-jump is q S times the difference of the two sides: it vanishes at the tip, and its gradient holds that
-of q. Both sides are treated alike wherever the nodes lie.
+With the line test alone a pair of particle and node falls from whole to cut at once when the tip
+passes
+it: the jump across the crack ends abruptly somewhere around the tip, up to a third of a cell ahead
+of it, by an amount that changes from node to node and with the height of the crack in its cell.
+Here the cut share q of a particle rises from 0 at the tip to 1 some way behind it. The particle
+gives q S to the row of its side and (1 - q) S to the row that both sides share, at every node
+around the tip. So the
+jump is q S times the difference of the two sides: it vanishes at the tip, and its gradient holds
+that of q. Both sides are treated alike wherever the nodes lie.
 """
 
 from math import inf, sqrt
@@ -28,8 +30,8 @@ EXTENSION = 3.0  # cells by which a tip is carried on to tell the sides ahead of
 def along_crack(point, first, last, tip, x, y):
     """Return where a place lies from a tip: distance ahead along the crack and from it (m).
 
-    Behind the tip the first distance is negative and counts along the crack. Further: the segment that
-    is nearest, counted from the first, and its unit vector towards the tip.
+    Behind the tip the first distance is negative and counts along the crack. Further: the segment
+    that is nearest, counted from the first, and its unit vector towards the tip.
 
     first, last: points of the crack; tip: the one of both that is the tip
     """
@@ -55,7 +57,7 @@ def along_crack(point, first, last, tip, x, y):
 
 @kernel
 def rise(x, ramp):
-    """Return the cut share of a point x behind the start of the ramp, and its integral up to there."""
+    """Return the cut share of a point x behind the start of the ramp, and its integral to there."""
     if x <= 0.0:
         return 0.0, 0.0
     if x >= ramp:
@@ -67,11 +69,11 @@ def rise(x, ramp):
 def cut_share(paths, tip, x, y, half, width, centre, ramp):
     """Return the cut share of a particle at (x, y) and its gradient (per cell).
 
-    Both are averages over the particle, as in GIMP: a particle that the ramp only grazes must not feel
-    the whole gradient, or the stress ahead of the tip would be released.
+    Both are averages over the particle, as in GIMP: a particle that the ramp only grazes must not
+    feel the whole gradient, or the stress ahead of the tip would be released.
 
-    tip: 2 * crack + end; half: half size of the particle along each axis (cells); centre: where ahead
-    of the tip the share begins to rise (cells); ramp: cells from whole to cut
+    tip: 2 * crack + end; half: half size of the particle along each axis (cells); centre: where
+    ahead of the tip the share begins to rise (cells); ramp: cells from whole to cut
     """
     crack = tip // 2
     first, last = paths.start[crack], paths.start[crack + 1] - 1

@@ -122,9 +122,7 @@ def site_of(model, state, tip) -> Site:
     """Return what the integrals around a tip need to know."""
     paths = state.paths
     place = paths.origin[tip.points[0]]
-    frame = TipFrame(
-        tuple(place.tolist()), tip.direction(paths.origin), tip.direction(paths.point)
-    )
+    frame = TipFrame(tuple(place.tolist()), tip.direction(paths.origin), tip.direction(paths.point))
     block = block_at(model, state.particles, place)
     gravity = model.conditions.body_force(state.time, len(model.strides))
     half = bool(paths.mirror[tip.crack, 0] >= 0)
@@ -194,7 +192,8 @@ def _measure_domain(model, state, scratch, tip, site):
     others = [r for r in radii[1:] or [s * radius for s in SPREAD] if r <= room]
     spread = _spread(J, [domain_values(model, state.particles, site, r) for r in others])
     status = f"shrunk: {remark} within {wanted / width:.3g} cells" if remark else ""
-    if _is_closed(model, scratch, tip, paths.point[tip.points[0]], radius):
+    closed = K_I < 0.0 and model.contact.kind[tip.crack] != IGNORE  # faces can not overlap
+    if closed or _is_closed(model, scratch, tip, paths.point[tip.points[0]], radius):
         K_I, status = 0.0, "; ".join(filter(None, ["closed", status]))
     return {"J": J, "K_I": K_I, "K_II": K_II, "J_spread": spread}, status
 

@@ -20,7 +20,10 @@ HISTORY_COLUMNS = {
     "fracture_energy": ("J", "energy spent on new crack surface"),
     "friction_energy": ("J", "energy spent by friction of crack faces and bodies"),
     "plastic_energy": ("J", "energy spent in plastic and viscous strain"),
-    "damping_energy": ("J", "energy taken by damping, and by the filter of updates other than flip"),
+    "damping_energy": (
+        "J",
+        "energy taken by damping, and by the filter of updates other than flip",
+    ),
     "external_work": ("J", "work of loads and moving boundaries"),
     "energy_error": ("1", "sum of all energies minus start and work, over the largest of them"),
     "momentum_x": ("N*s", "momentum of all particles along x"),

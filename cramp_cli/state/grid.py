@@ -1,8 +1,8 @@
 """The scratch paper: sums over particles, in rows.
 
 Row i below the number of nodes is velocity field 0 of node i, the side on which the node itself
-lies. Further rows exist only at nodes near cracks, one for every side that particles on the far side
-of a crack belong to (Nairn 2003: each node has multiple velocity fields).
+lies. Further rows exist only at nodes near cracks, one for every side that particles on the far
+side of a crack belong to (Nairn 2003: each node has multiple velocity fields).
 """
 
 from typing import NamedTuple
@@ -26,8 +26,8 @@ class Grid(NamedTuple):
 class Rows(NamedTuple):
     """Which rows a node has beyond its own, and what lies between them.
 
-    A row is told by the cracks that the lines from its particles to its node cross: none (the node's
-    own row), one, or two. Arrays over extra rows start at row number `nodes`.
+    A row is told by the cracks that the lines from its particles to its node cross: none (the
+    node's own row), one, or two. Arrays over extra rows start at row number `nodes`.
     """
 
     count: (

@@ -8,10 +8,12 @@ import numpy as np
 class Stencil(NamedTuple):
     """Place of every particle in the grid at the start of the step, kept for the whole step.
 
-    Far from cracks the rows of a particle are its nodes. A particle near a crack has a list of entries:
+    Far from cracks the rows of a particle are its nodes. A particle near a crack has a list of
+    entries:
     a node, the row of that node, and the share of the weight that goes to this row: 1, except for a
-    particle that a tip is passing, which is part cut, part whole (tip_nodes.py). The share of such a
-    particle changes from place to place, which adds tilt * S * slope to the gradient of the weight.
+    particle that a tip is passing, which is part cut, part whole (tip_nodes.py). The share of such
+    a particle changes from place to place, which adds tilt * S * slope to the gradient of the
+    weight.
     """
 
     base: np.ndarray  # (n,) lowest node of the particle's nodes
@@ -21,7 +23,9 @@ class Stencil(NamedTuple):
     which: np.ndarray  # (listed, 2 * nodes per particle) node of an entry, in the particle's order
     table: np.ndarray  # (listed, 2 * nodes per particle) row of an entry
     share: np.ndarray  # (listed, 2 * nodes per particle) share of the weight that the row takes
-    tilt: np.ndarray  # (listed, 2 * nodes per particle) +1, -1 for the cut and the whole part, else 0
+    tilt: (
+        np.ndarray
+    )  # (listed, 2 * nodes per particle) +1, -1 for the cut and the whole part, else 0
     slope: np.ndarray  # (listed, dim) gradient of the cut share, per cell
     listed: np.ndarray  # (n,) particles near a crack
     around: np.ndarray  # (n,) particles that may see a node with more than one row

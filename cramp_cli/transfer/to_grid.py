@@ -47,7 +47,7 @@ def sum_mass_and_momentum(grid, particles, stencil, shape, strides, lo, hi):
 
 @kernel
 def sum_momentum(grid, particles, stencil, shape, strides, lo, hi):
-    """Add p_i = sum S m_p v_p of the moved particles lo..hi, with the weights of the step's start."""
+    """Add p_i = sum S m_p v_p of the moved particles lo..hi, with the first weights of the step."""
     m, v = particles.mass, particles.velocity
     sum_vectors(grid.momentum, m, v, stencil, shape, strides, lo, hi)
 
@@ -119,7 +119,8 @@ def sum_particle_force(grid, chosen, load, stencil, shape, strides, factor):
 def smooth(target, field, particles, stencil, shape, strides, lo, hi):
     """Add sum m_p S_ip (sum_j S_jp v_j): the step of XPIC and FMPM from grid to particles and back.
 
-    target, field: (rows, dim); divided by the row mass, target is S+ S v (Nairn and Hammerquist 2021)
+    target, field: (rows, dim); divided by the row mass, target is S+ S v (Nairn and Hammerquist
+    2021)
     """
     m = particles.mass
     base, local, near = stencil.base, stencil.local, stencil.near

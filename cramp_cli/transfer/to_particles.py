@@ -64,7 +64,7 @@ def move_particles(particles, grid, stencil, update, shape, strides, damping, dt
 def update_stress(
     particles, grid, stencil, law, geometry, shape, strides, width, dt, part, fresh, lo, hi
 ):
-    """Strain particles lo..hi for part * dt with the velocities of the grid and update their stress.
+    """Strain particles lo..hi for part * dt with the velocities of the grid; update their stress.
 
     fresh: the first strain update of the step; L becomes the average over the updates of the step
     """

@@ -1,4 +1,4 @@
-"""K_I of a centre crack for 5 x 5 places of its tip within a cell: `python <this file> [cells ...]`.
+"""K_I of a centre crack for 5 x 5 places of its tip in a cell: `python <this file> [cells ...]`.
 
 The plate is inputs/center_crack.yaml: 0.1 m from its middle to its edge, and 0.04 m to the tip. The
 crack has n + i/5 cells from the middle to its tip and lies j/5 cells above a row of nodes.
@@ -57,7 +57,10 @@ def table(cells):
 def write(cells, found):
     """Print K_I / exact and K_II / exact, rows by line and columns by tip."""
     for name, values in (("K_I / exact", "one"), ("K_II / exact", "two")):
-        print(f"\n{name}, a = ({cells} + tip) cells\nline \\ tip" + "".join(f"{i / 5:9.1f}" for i in range(5)))
+        print(
+            f"\n{name}, a = ({cells} + tip) cells\nline \\ tip"
+            + "".join(f"{i / 5:9.1f}" for i in range(5))
+        )
         for j in range(5):
             row = (getattr(found[i, j], values) for i in range(5))
             print(f"{j / 5:10.1f}" + "".join(f"{value:9.4f}" for value in row))

@@ -10,10 +10,10 @@ def bar_speed(E, rho):
 
 
 def bar_impact(x, t, v0, length, E, rho):
-    """Stress and velocity in a bar 0 <= x <= length that hits a rigid wall at x = 0 with velocity -v0.
+    """Stress and velocity in a bar 0 <= x <= length that hits a rigid wall at x = 0 with -v0.
 
-    D'Alembert: a front leaves the wall at t = 0, behind it v = 0 and stress = -rho c v0; it comes back
-    from the free end as relief. Until the contact ends at 2 length / c.
+    D'Alembert: a front leaves the wall at t = 0, behind it v = 0 and stress = -rho c v0; it comes
+    back from the free end as relief. Until the contact ends at 2 length / c.
     """
     c = bar_speed(E, rho)
     if not 0.0 <= t < 2.0 * length / c:
@@ -27,8 +27,8 @@ def bar_impact(x, t, v0, length, E, rho):
 def bar_step_traction(x, t, p, length, E, rho, images=40):
     """Stress in a bar held at x = 0 when a traction p acts on its end at x = length from t = 0 on.
 
-    Sum of images: p behind the front that comes from the end, 2 p behind the one that comes back from
-    the held end, and so on with alternating signs at the loaded end.
+    Sum of images: p behind the front that comes from the end, 2 p behind the one that comes back
+    from the held end, and so on with alternating signs at the loaded end.
     """
     way = bar_speed(E, rho) * t
     stress = np.zeros_like(x)
@@ -49,9 +49,10 @@ def vibrating_bar(x, t, v0, mode, length, E, rho):
 
 
 def incline_slide(t, angle, mu, ramp, g=9.81):
-    """Way and velocity of a rigid block along an incline under gravity that rises from 0 to `ramp` (s).
+    """Way and velocity of a rigid block on an incline under gravity that rises until `ramp` (s).
 
-    The acceleration g (sin - mu cos) rises with it; the block stays where friction holds it. After the
+    The acceleration g (sin - mu cos) rises with it; the block stays where friction holds it. After
+    the
     ramp: a (t^2/2 - ramp t/2 + ramp^2/6); with ramp = 0 this is a t^2/2.
     """
     a = max(0.0, g * (np.sin(angle) - mu * np.cos(angle)))
@@ -61,9 +62,9 @@ def incline_slide(t, angle, mu, ramp, g=9.81):
 def center_crack(sigma, a, half_width):
     """K_I of a crack of length 2a in the middle of a long strip under tension.
 
-    Tada, Paris, Irwin, The Stress Analysis of Cracks Handbook: sigma sqrt(pi a) (1 - 0.025 s^2
-    + 0.06 s^4) sqrt(sec(pi s / 2)), s = a / half_width; within 0.1 % (checked by collocation: 0.03 % for
-    s <= 0.6 in a plate twice as long as wide).
+    Tada, Paris, Irwin, The Stress Analysis of Cracks Handbook: sigma sqrt(pi a) (1 - 0.025 s^2 +
+    0.06 s^4) sqrt(sec(pi s / 2)), s = a / half_width; within 0.1 % (checked by collocation: 0.03 %
+    for s <= 0.6 in a plate twice as long as wide).
     """
     s = a / half_width
     shape = (1.0 - 0.025 * s**2 + 0.06 * s**4) / np.sqrt(np.cos(0.5 * np.pi * s))
@@ -76,7 +77,7 @@ EDGE_CRACK = {0.1: 1.1892, 0.2: 1.3673, 0.3: 1.6599, 0.4: 2.1114, 0.5: 2.8246, 0
 
 
 def two_collinear_cracks(sigma, inner, outer):
-    """K_I at the inner and outer tips of cracks inner < |x| < outer in an infinite plate in tension.
+    """K_I at the inner and outer tips of cracks inner < |x| < outer, infinite plate in tension.
 
     Willmore (1949); Tada, Paris, Irwin: with m = 1 - (inner/outer)^2 and E, K the complete elliptic
     integrals of parameter m,

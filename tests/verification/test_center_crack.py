@@ -1,7 +1,8 @@
 """Reference case A1, a centre crack in a plate: K_I is right wherever in its cell the tip lies.
 
-Exact: Tada's formula for the length that the crack has. Bounds: 2 % at ten cells per half crack, 1 % at
-twenty, |K_II| below 1 % of K_I. `python tests/verification/center_crack_table.py` prints all values.
+Exact: Tada's formula for the length that the crack has. Bounds: 2 % at ten cells per half crack, 1
+% at twenty, |K_II| below 1 % of K_I. `python tests/verification/center_crack_table.py` prints all
+values.
 """
 
 from dataclasses import replace

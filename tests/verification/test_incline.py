@@ -1,8 +1,10 @@
 """A block on a closed crack slides like a rigid block on an incline, or friction holds it.
 
-The way is that of the centre of mass of all that lies above the crack, along the crack. Gravity comes
-within 4 ms: with gravity at once the block bounces (period 1.8 ms) and slides while it is light, which
-no rigid block does (measured: 1.6 % too far at mu = 0.4 after 40 ms, and no rest at mu = 0.7).
+The way is that of the centre of mass of all that lies above the crack, along the crack. Gravity
+comes
+within 4 ms: with gravity at once the block bounces (period 1.8 ms) and slides while it is light,
+which no rigid block does (measured: 1.6 % too far at mu = 0.4 after 40 ms, and no rest at mu =
+0.7).
 """
 
 import numpy as np

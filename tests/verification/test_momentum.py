@@ -10,8 +10,8 @@ pytestmark = pytest.mark.verification
 
 STEPS = 1000
 
-# Two halves of one plate that fly into each other and turn: waves open and close the crack, which slides
-# with friction while the plate turns by more than half a radian.
+# Two halves of one plate that fly into each other and turn: waves open and close the crack, which
+# slides with friction while the plate turns by more than half a radian.
 PLATE = """
 cramp: 1
 analysis: plane_strain
@@ -51,11 +51,15 @@ def measures(particles):
     return Measures(m @ v, angular, float(m @ np.hypot(*v.T)))
 
 
-# update, tips, and the share of its spin that a body may lose: cases.md gives no number, these are the
-# losses measured (in the comments) and a little more
+# update, tips, and the share of its spin that a body may lose: cases.md gives no number, these are
+# the losses measured (in the comments) and a little more
 FLIGHTS = [
     ("flip", "sharp", 0.05),  # 3.6 %; 2.8 % without a crack
-    ("flip", "smooth", 0.25),  # 21 %: the grid rows beside a tip are far from the nodes they stand at
+    (
+        "flip",
+        "smooth",
+        0.25,
+    ),  # 21 %: the grid rows beside a tip are far from the nodes they stand at
     ("fmpm(2)", "smooth", 0.95),  # 90 %: velocities near the border of a body are smoothed, which
     ("xpic(2)", "smooth", 1.05),  # 104 %: takes all spin of a body of 16 by 10 cells
 ]

@@ -1,7 +1,8 @@
 """Crack patch tests: an explicit crack gives what the same body gives without one.
 
-Reference case P0: a double cantilever beam whose crack lies exactly on a row of nodes, against its upper
-half with a symmetry plane ahead of the tip. Nothing else differs, so the answers are the same numbers.
+Reference case P0: a double cantilever beam whose crack lies exactly on a row of nodes, against its
+upper half with a symmetry plane ahead of the tip. Nothing else differs, so the answers are the same
+numbers.
 """
 
 import numpy as np
@@ -30,7 +31,7 @@ def beam(contact, **changes):
 
 
 def after(deck, **solver):
-    """Return positions and stresses of a deck's particles after some steps, by their place at the start."""
+    """Return positions and stresses of a deck's particles after some steps, by first place."""
     model, state, scratch = build_deck(deck, solver=solver)
     advance(model, state, scratch, STEPS)
     particles = state.particles

@@ -86,7 +86,7 @@ def test_traction_on_the_end_of_a_bar(update):
 
 
 def vibration_error(cells, periods, **solver):
-    """Return the rms error of the displacement, over its amplitude, after periods of the first mode."""
+    """Return the rms error of displacement over its amplitude, after periods of the first mode."""
     model, state, scratch = build_deck(bar(cells), solver=solver)
     p, omega = state.particles, 0.5 * np.pi / TRANSIT
     x = p.origin[:, 0]
