@@ -7,6 +7,7 @@ import numpy as np
 
 from cramp_cli.boundary.symmetry import (
     Mirror,
+    double_on,
     find_open_nodes,
     reflect,
     reflect_mass,
@@ -133,6 +134,7 @@ def reflect_mass_and_momentum(conditions, scratch) -> None:
     for plane, free in zip(conditions.mirrors, scratch.free, strict=True):
         m = plane.mirror
         reflect_mass(grid.mass, rows, m.crack, m.outside, m.inside)
+        double_on(grid.mass, rows, m.crack, m.on, free)
         _reflect(m, free, rows, grid.momentum, add=True)
 
 
@@ -164,7 +166,10 @@ def reflect_forces(conditions, scratch, state) -> None:
 
 def _reflect(m: Mirror, free, rows, field, *, add: bool) -> float:
     reflect(field, rows, m.axis, m.crack, m.outside, m.inside, add)
-    return stop_normal(field, rows, m.axis, m.crack, m.on, free)
+    taken = stop_normal(field, rows, m.axis, m.crack, m.on, free)
+    if add:
+        double_on(field, rows, m.crack, m.on, free)
+    return taken
 
 
 def hold_momenta(conditions, scratch, time) -> None:

@@ -71,6 +71,21 @@ def reflect(field, rows, axis, crack, outside, inside, add):
 
 
 @kernel
+def double_on(field, rows, crack, on, free):
+    """Add the image's share to the rows on the plane, except along its crack."""
+    nodes = len(rows.first)
+    for i in range(len(on)):
+        row = on[i]
+        while row >= 0:
+            beyond = row >= nodes and (
+                rows.crack[row - nodes, 0] == crack or rows.crack[row - nodes, 1] == crack
+            )
+            if not free[i] and not (beyond and crack >= 0):
+                field[row] *= 2.0
+            row = rows.first[row] if row < nodes else rows.next[row - nodes]
+
+
+@kernel
 def reflect_mass(mass, rows, crack, outside, inside):
     """Add the mass of rows outside to their images and copy it back."""
     nodes = len(rows.first)

@@ -179,20 +179,31 @@ def touch_increment(increment, grid, rows, laws, strides):
 
     increment: (rows, dim), m/s
     """
-    nodes, mass = len(rows.first), grid.mass
-    for e in range(rows.count[0]):
-        for slot in range(2):
-            crack = rows.crack[e, slot]
-            state = rows.touching[e, slot]
-            if crack < 0 or state == 0:
-                continue
-            partner = row_across(rows, e, slot)
-            row = nodes + e
-            n = unit_normal(strides, rows.normal, e, slot)
-            apart = plus(vector(strides, increment, partner), -1.0, vector(strides, increment, row))
-            if state == SLIDING:
-                apart = times(n, dot(apart, n))
-            share = mass[partner] / (mass[row] + mass[partner])
-            for d in range(len(strides)):
-                increment[row, d] += share * apart[d]
-                increment[partner, d] -= (1.0 - share) * apart[d]
+    for i in range(rows.count[1]):
+        node = rows.shared[i]
+        for crossings in (1, 2):
+            row = rows.first[node]
+            while row >= 0:
+                e = row - len(rows.first)
+                if (rows.crack[e, 1] >= 0) == (crossings == 2):
+                    for slot in range(crossings):
+                        share_increment(increment, grid.mass, rows, strides, row, slot)
+                row = rows.next[e]
+
+
+@kernel
+def share_increment(increment, mass, rows, strides, row, slot):
+    """Let a row and the one across the crack in `slot` share their increment as they touched."""
+    e = row - len(rows.first)
+    state = rows.touching[e, slot]
+    partner = row_across(rows, e, slot)
+    if state == 0 or partner < 0:
+        return
+    n = unit_normal(strides, rows.normal, e, slot)
+    apart = plus(vector(strides, increment, partner), -1.0, vector(strides, increment, row))
+    if state == SLIDING:
+        apart = times(n, dot(apart, n))
+    share = mass[partner] / (mass[row] + mass[partner])
+    for d in range(len(strides)):
+        increment[row, d] += share * apart[d]
+        increment[partner, d] -= (1.0 - share) * apart[d]

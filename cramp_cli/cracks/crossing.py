@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from cramp_cli.numerics.kernel import kernel
-from cramp_cli.state.paths import EDGE
+from cramp_cli.state.paths import EDGE, TIP
 
 ON_CRACK = 1e-9  # a point closer to a crack than this (cells) lies on it
 HAIR = 1e-6  # a point on a vertex is taken to lie this far below it (cells)
@@ -174,7 +174,11 @@ def lay_out_segments(segments, paths, beyond_tip, hair):
                 outermost = (end == 0 and k == start[c]) or (end == 1 and k == last)
                 edge = outermost and kinds[c, end] == EDGE
                 on = EXTENSION if edge else 0.0
-                on_tip = beyond_tip[c] / size if outermost and not edge else on
+                on_tip = on
+                if outermost and kinds[c, end] == TIP:
+                    on_tip = beyond_tip[c] / size
+                elif outermost and not edge:
+                    on_tip = 4.0 * hair / size  # ends of cracks that meet in a point must meet
                 sign = 2 * end - 1
                 segments.real[n, 2 * end] = point[at, 0] + sign * on * dx
                 segments.real[n, 2 * end + 1] = point[at, 1] + sign * on * dy

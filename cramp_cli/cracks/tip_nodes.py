@@ -17,7 +17,7 @@ import numpy as np
 
 from cramp_cli.cracks.crossing import ON_CRACK, double_area
 from cramp_cli.numerics.kernel import kernel
-from cramp_cli.state.paths import EDGE
+from cramp_cli.state.paths import TIP
 
 REACH = 5  # cells around a tip whose nodes are looked at
 BEHIND = 3.0  # cells behind a tip within which a node may see a particle that is part cut
@@ -81,6 +81,8 @@ def cut_share(paths, tip, x, y, half, width, centre, ramp):
     ahead, _, _, ex, ey = along_crack(paths.point, first, last, at, x, y)
     reach = abs(ex) * half[0] + abs(ey) * half[1]
     behind = centre - ahead / width
+    if behind - reach >= ramp:
+        return 1.0, 0.0, 0.0
     low, low_sum = rise(behind - reach, ramp)
     high, high_sum = rise(behind + reach, ramp)
     cut, slope = 0.5 * (high_sum - low_sum) / reach, -0.5 * (high - low) / reach
@@ -109,7 +111,7 @@ def mark_tip_nodes(rows, paths, segments, smooth, cells, width, lower, strides):
     point, start, ends = paths.point, paths.start, paths.ends
     for tip in range(2 * (len(start) - 1)):
         c, end = tip // 2, tip % 2
-        if ends[c, end] == EDGE or not smooth[c]:
+        if ends[c, end] != TIP or not smooth[c]:
             continue
         first, last = start[c], start[c + 1] - 1
         at = first if end == 0 else last

@@ -90,6 +90,8 @@ def _sample(model, state, scratch, tip) -> dict:
     paths, site = state.paths, site_of(model, state, tip)
     place, now = paths.point[tip.points[0]], site.frame.now
     normal, slide = open_and_slide(opening_near_tip(paths, tip.crack, tip.end), now)
+    if paths.fixed[tip.crack]:  # its surfaces do not move: no opening is known
+        normal = slide = nan
     row = {
         "step": state.step,
         "time": state.time,

@@ -47,11 +47,11 @@ def _(geometry, law, turned, dU):
     stress = kirchhoff_stress(law, turned, strain)
     modulus = confined_modulus(law)
     for _ in range(20):
-        if abs(stress[2]) <= 1e-14 * modulus:
-            break
         zz -= stress[2] / modulus
         strain = solid_strain(dU, zz)
         stress = kirchhoff_stress(law, turned, strain)
+        if abs(stress[2]) <= 1e-14 * modulus:
+            break
     return strain, (stress[0], stress[1], 0.0, stress[3], stress[4], stress[5])
 
 

@@ -24,7 +24,7 @@ def answer(cracks, particle, node, lattice=LATTICE, ends=PLAIN):
     paths = make_paths(cracks, [(ends, ends)] * n, [0] * n, [(-1, 0)] * n, 2)
     segments = make_segments(lattice.node_count, count, 81 * count)
     place = (lattice.cells, lattice.width, lattice.lower, lattice.strides)
-    assert list_segments(segments, paths, *place, 1, 4, 0.0)
+    assert list_segments(segments, paths, *place, 1, 4, np.zeros(paths.crack_count))
     cell = np.floor((np.array(particle) - lattice.lower) / lattice.width) @ lattice.strides
     points = tuple(map(float, (*particle, *node)))
     a, side_a, _, b, side_b, _, more = crossed_cracks(segments, int(cell), *points, ON_CRACK)
