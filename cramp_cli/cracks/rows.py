@@ -186,11 +186,12 @@ def add_normal(rows, row, crack, ends, s):
 
 
 @kernel
-def add_entry(stencil, line, k, row, share, tilt):
+def add_entry(stencil, line, k, row, share, bx, by):
     """Add an entry to the list of a particle."""
     e = stencil.entries[line]
     stencil.which[line, e], stencil.table[line, e] = k, max(row, 0)
-    stencil.share[line, e], stencil.tilt[line, e] = share, tilt
+    stencil.share[line, e] = share
+    stencil.bend[line, e, 0], stencil.bend[line, e, 1] = bx, by
     stencil.entries[line] = e + 1
 
 
@@ -202,11 +203,11 @@ def give_row(stencil, rows, ends, line, k, node, crossed):
     row = join_row(rows, node, a, side_a, b, side_b)
     add_normal(rows, row, a, ends, seg_a)
     add_normal(rows, row, b, ends, seg_b)
-    add_entry(stencil, line, k, row, 1.0, 0.0)
+    add_entry(stencil, line, k, row, 1.0, 0.0, 0.0)
 
 
 @kernel
-def give_shares(stencil, rows, ends, line, k, node, crossed, cut):
+def give_shares(stencil, rows, ends, line, k, node, crossed, cut, gx, gy):
     """Give the pair of a particle and its node `k` beside a tip two rows: cut and whole."""
     a, side_a, seg_a, b, side_b, seg_b, more = crossed
     rows.count[3] += more
@@ -221,7 +222,7 @@ def give_shares(stencil, rows, ends, line, k, node, crossed, cut):
         row = join_row(rows, node, a, side_a, b, side_b)
         add_normal(rows, row, a, ends, seg_a)
         add_normal(rows, row, b, ends, seg_b)
-        add_entry(stencil, line, k, row, 1.0 - cut, -1.0)
+        add_entry(stencil, line, k, row, 1.0 - cut, -gx, -gy)
     if cut > 0.0:
         rows.count[3] += b >= 0
         if a < 0 or c < a:
@@ -230,7 +231,7 @@ def give_shares(stencil, rows, ends, line, k, node, crossed, cut):
             row = join_row(rows, node, a, side_a, c, side)
         add_normal(rows, row, c, ends, seg)
         add_normal(rows, row, a, ends, seg_a)
-        add_entry(stencil, line, k, row, cut, 1.0)
+        add_entry(stencil, line, k, row, cut, gx, gy)
 
 
 @kernel
@@ -260,7 +261,7 @@ def assign_rows(
             cell += int(np.floor(local[p, d])) * strides[d]
         x = off_crack(segments, cell, position[p, 0], position[p, 1], ON_CRACK * width)
         corner = (base[p] % nodes_along[0], base[p] // strides[1])
-        known, cut = -1, 1.0
+        known, cut, gx, gy = -1, 1.0, 0.0, 0.0
         for k in range(len(steps)):
             nx = lower[0] + width * (corner[0] + k % side)
             ny = lower[1] + width * (corner[1] + k // side)
@@ -274,8 +275,7 @@ def assign_rows(
             if tip != known:
                 known = tip
                 cut, gx, gy = cut_share(paths, tip, x[0], x[1], shape.half, width, centre, ramp)
-                stencil.slope[line, 0], stencil.slope[line, 1] = gx, gy
-            give_shares(stencil, rows, segments.ends, line, k, node, crossed, cut)
+            give_shares(stencil, rows, segments.ends, line, k, node, crossed, cut, gx, gy)
 
 
 @kernel

@@ -11,7 +11,7 @@ from cramp_cli.numerics.dispatch import by_length
 __all__ = [
     "add_outer", "apply", "determinant", "dot", "increment", "matrix", "outer", "outer_sum", "pick",
     "plus", "product", "rotation_of", "scaled", "solid_strain", "symmetric", "times", "turn",
-    "vector", "work_of", "zero_matrix",
+    "vector", "vector_of", "work_of", "zero_matrix",
 ]  # fmt: skip
 
 
@@ -72,6 +72,21 @@ def _(like, a, i):
 @vector.implement(3)
 def _(like, a, i):
     return (a[i, 0], a[i, 1], a[i, 2])
+
+
+@by_length
+def vector_of(like, a, i, j):
+    """Return the vector in row `i`, place `j` of the array `a` as a tuple as long as `like`."""
+
+
+@vector_of.implement(2)
+def _(like, a, i, j):
+    return (a[i, j, 0], a[i, j, 1])
+
+
+@vector_of.implement(3)
+def _(like, a, i, j):
+    return (a[i, j, 0], a[i, j, 1], a[i, j, 2])
 
 
 @by_length

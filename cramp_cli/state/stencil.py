@@ -12,7 +12,7 @@ class Stencil(NamedTuple):
     entries:
     a node, the row of that node, and the share of the weight that goes to this row: 1, except for a
     particle that a tip is passing, which is part cut, part whole (tip_nodes.py). The share of such
-    a particle changes from place to place, which adds tilt * S * slope to the gradient of the
+    a particle changes from place to place, which adds S * bend to the gradient of the
     weight.
     """
 
@@ -23,10 +23,7 @@ class Stencil(NamedTuple):
     which: np.ndarray  # (listed, 2 * nodes per particle) node of an entry, in the particle's order
     table: np.ndarray  # (listed, 2 * nodes per particle) row of an entry
     share: np.ndarray  # (listed, 2 * nodes per particle) share of the weight that the row takes
-    tilt: (
-        np.ndarray
-    )  # (listed, 2 * nodes per particle) +1, -1 for the cut and the whole part, else 0
-    slope: np.ndarray  # (listed, dim) gradient of the cut share, per cell
+    bend: np.ndarray  # (listed, 2 * nodes per particle, dim) gradient of the share, per cell
     listed: np.ndarray  # (n,) particles near a crack
     around: np.ndarray  # (n,) particles that may see a node with more than one row
     count: np.ndarray  # (2,) how many of `listed` and `around` are in use
@@ -52,6 +49,5 @@ def make_lists(nodes_per_particle: int, dim: int, listed: int) -> dict:
         "which": np.zeros((listed, 2 * nodes_per_particle), dtype=np.int64),
         "table": np.zeros((listed, 2 * nodes_per_particle), dtype=np.int64),
         "share": np.ones((listed, 2 * nodes_per_particle)),
-        "tilt": np.zeros((listed, 2 * nodes_per_particle)),
-        "slope": np.zeros((listed, dim)),
+        "bend": np.zeros((listed, 2 * nodes_per_particle, dim)),
     }

@@ -5,7 +5,16 @@ state/stencil.py). That is the only difference between the two loops of a kernel
 """
 
 from cramp_cli.numerics.kernel import kernel
-from cramp_cli.numerics.tensor import apply, pick, plus, scaled, symmetric, times, vector
+from cramp_cli.numerics.tensor import (
+    apply,
+    pick,
+    plus,
+    scaled,
+    symmetric,
+    times,
+    vector,
+    vector_of,
+)
 from cramp_cli.shapes.shape import gradients, offsets, weights
 
 
@@ -77,7 +86,7 @@ def sum_internal_force(grid, particles, stencil, shape, strides, width, lo, hi):
     stress, volume = particles.stress, particles.volume
     base, local, near = stencil.base, stencil.local, stencil.near
     entries, which, table, share = stencil.entries, stencil.which, stencil.table, stencil.share
-    tilt = stencil.tilt
+    bend = stencil.bend
     steps = offsets(strides, shape)
     for p in range(lo, hi):
         G = gradients(vector(strides, local, p), shape)
@@ -88,10 +97,9 @@ def sum_internal_force(grid, particles, stencil, shape, strides, width, lo, hi):
                 add(force, first + steps[k], 1.0, apply(pick(G, k), tau))
         else:
             S = weights(vector(strides, local, p), shape)
-            slope = vector(strides, stencil.slope, line)
             for e in range(entries[line]):
                 k = which[line, e]
-                g = plus(times(pick(G, k), share[line, e]), tilt[line, e] * S[k], slope)
+                g = plus(times(pick(G, k), share[line, e]), S[k], vector_of(strides, bend, line, e))
                 add(force, table[line, e], 1.0, apply(g, tau))
 
 

@@ -14,6 +14,7 @@ from cramp_cli.numerics.tensor import (
     times,
     turn,
     vector,
+    vector_of,
     work_of,
     zero_matrix,
 )
@@ -73,7 +74,7 @@ def update_stress(
     velocity = grid.velocity
     base, local, near = stencil.base, stencil.local, stencil.near
     entries, which, table, share = stencil.entries, stencil.which, stencil.table, stencil.share
-    tilt = stencil.tilt
+    bend = stencil.bend
     steps = offsets(strides, shape)
     zero = zero_matrix(strides)
     for p in range(lo, hi):
@@ -86,10 +87,9 @@ def update_stress(
                 gradient = add_outer(v, pick(G, k), gradient)
         else:
             S = weights(vector(strides, local, p), shape)
-            slope = vector(strides, stencil.slope, line)
             for e in range(entries[line]):
                 k, v = which[line, e], vector(strides, velocity, table[line, e])
-                g = plus(times(pick(G, k), share[line, e]), tilt[line, e] * S[k], slope)
+                g = plus(times(pick(G, k), share[line, e]), S[k], vector_of(strides, bend, line, e))
                 gradient = add_outer(v, g, gradient)
         gradient = scaled(gradient, 1.0 / width)
         dU = scaled(gradient, part * dt)

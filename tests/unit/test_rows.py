@@ -278,10 +278,10 @@ def test_part_cut_particles_give_their_whole_weight(tip, height, shape):
     assert 0.0 < min(shares) < 1.0
     for line in range(stencil.count[0]):
         n = stencil.entries[line]
-        which, share, tilt = (a[line, :n] for a in (stencil.which, stencil.share, stencil.tilt))
+        which, share, bend = (a[line, :n] for a in (stencil.which, stencil.share, stencil.bend))
         np.testing.assert_allclose(np.bincount(which, share), 1.0, rtol=1e-15)
-        if stencil.slope[line].any():
-            assert not np.bincount(which, tilt).any()
+        for along in bend.T:
+            assert not np.bincount(which, along).any()
     count = scratch.row_count
     assert scratch.grid.mass[:count].sum() == pytest.approx(state.particles.mass.sum(), rel=1e-14)
     for p, _, row in pairs(model, state, scratch):
