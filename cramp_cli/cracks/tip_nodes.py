@@ -21,7 +21,9 @@ from cramp_cli.state.paths import TIP
 
 REACH = 5  # cells around a tip whose nodes are looked at
 BEHIND = 3.0  # cells behind a tip within which a node may see a particle that is part cut
-LATERAL = 2.0  # cells from the line of the crack beyond which no particle sees both sides of a node
+# cells from the line of the crack beyond which no particle sees both sides of a node; a little more
+# than 2, or nodes of a crack on a grid line would be marked on one side and not on the other
+LATERAL = 2.001
 LEAST = 1e-3  # a smaller cut or whole share is none: a row must not hold next to nothing
 EXTENSION = 3.0  # cells by which a tip is carried on to tell the sides ahead of it
 

@@ -2,7 +2,7 @@
 
 Numba looks only at the file that holds a kernel when it decides whether its cached machine code is
 still good; a formula edited in another file would go unnoticed. So the cache folder is named by a
-hash of all sources of this package: change any of them and everything compiles anew.
+hash of all sources that kernels are made of: change any of them and everything compiles anew.
 """
 
 import hashlib
@@ -11,12 +11,22 @@ import tempfile
 from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parent.parent
+WITH_KERNELS = (
+    "boundary",
+    "contact",
+    "cracks",
+    "materials",
+    "numerics",
+    "shapes",
+    "state",
+    "transfer",
+)
 
 
-def source_hash() -> str:
-    """Return the first 16 hex digits of the SHA-256 over all sources of the package."""
+def source_hash(folders=("",)) -> str:
+    """Return the first 16 hex digits of the SHA-256 over the sources of the package or of parts."""
     digest = hashlib.sha256()
-    for path in sorted(PACKAGE.rglob("*.py")):
+    for path in sorted(path for folder in folders for path in (PACKAGE / folder).rglob("*.py")):
         digest.update(path.relative_to(PACKAGE).as_posix().encode())
         digest.update(path.read_bytes())
     return digest.hexdigest()[:16]
@@ -34,8 +44,8 @@ def cache_root() -> Path:
 
 
 def cache_folder() -> Path:
-    """Return the cache folder of exactly this source."""
-    return cache_root() / source_hash()
+    """Return the cache folder of exactly these kernels."""
+    return cache_root() / source_hash(WITH_KERNELS)
 
 
 def _nearest_existing(path: Path) -> Path:

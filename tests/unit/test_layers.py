@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 import cramp_cli
+from cramp_cli.numerics.cache import WITH_KERNELS
 
 PACKAGE = Path(cramp_cli.__file__).parent
 LAYERS = (
@@ -78,3 +79,16 @@ def test_no_files_no_log_no_clock_up_to_the_step(module):
     calls = [node.func for node in syntax(module) if isinstance(node, ast.Call)]
     names = {getattr(call, "id", getattr(call, "attr", "")) for call in calls}
     assert not names & FILE_CALLS, f"{module} calls {names & FILE_CALLS}"
+
+
+def test_kernels_are_made_only_of_sources_that_name_their_cache():
+    homes = {place(module) for module in MODULES if "numerics.kernel" in ",".join(imported(module))}
+    assert homes <= set(WITH_KERNELS)
+    below = {
+        other
+        for name in homes
+        for module in MODULES
+        if place(module) == name
+        for other in own_places(module)
+    }
+    assert below <= set(WITH_KERNELS)
