@@ -5,7 +5,14 @@ import pytest
 from support import advance, build_deck
 
 from cramp_cli.cracks.fields import find_rows
-from cramp_cli.cracks.tips import block_at, crack_length, hooke_of, sample_tips, tips_of
+from cramp_cli.cracks.tips import (
+    block_at,
+    crack_length,
+    hooke_of,
+    sample_tips,
+    site_of,
+    tips_of,
+)
 from cramp_cli.transfer.sums import locate_particles
 
 PLATE = """
@@ -74,6 +81,21 @@ def test_another_crack_shrinks_the_domain():
     )
     assert rows["c0", "end"]["status"].startswith("shrunk: crack c1")
     assert rows["c1", "start"]["status"].startswith("shrunk: the edge")
+
+
+def test_the_frame_turns_with_the_solid():
+    """Whatever the points of the crack do: the mean rotation of the particles around the tip."""
+    crack = {"name": "c", **inner((0, 10), (15, 10), start="edge")}
+    model, state, _ = build_deck(PLATE, cracks=[crack])
+    state.particles.F[:] = [0.8, -0.6, 0.6, 0.8]
+    (tip,) = tips_of(state.paths)
+    frame = site_of(model, state, tip).frame
+    np.testing.assert_allclose([frame.before, frame.now], [(1.0, 0.0), (0.8, 0.6)], atol=1e-14)
+
+
+def test_a_fixed_crack_has_no_opening():
+    row = sampled(inner((0, 10), (15, 10), start="edge", motion="fixed"))["c0", "end"]
+    assert np.isnan([row["ctod_n"], row["ctod_t"]]).all()
 
 
 def rectangle(x0, y0, x1, y1):
@@ -151,8 +173,8 @@ def test_the_edge_of_the_body_is_told_from_another_material():
     assert row["c0", "end"]["status"].startswith("shrunk: the edge of the body")
 
 
-def pulled(axis, low, high, mirror, **more):
-    """Return J, K_I, K_II of a plate that is pulled apart across an edge crack, after 60 steps.
+def pulled(axis, low, high, mirror, pull=1e-3, law=None, steps=60, **more):
+    """Return J, K_I, K_II of a plate that is pulled apart across an edge crack, after some steps.
 
     axis: the normal of the crack; low, high: where the plate ends along it
     """
@@ -163,20 +185,20 @@ def pulled(axis, low, high, mirror, **more):
     shape = {"type": "rectangle", "lower": turned(0, low), "upper": turned(20, high)}
     where = "xy"[axis]
     load = {"type": "traction", "body": "plate"}
-    crack = inner(turned(0, 0), turned(10.3, 0), start="edge", contact={"law": "ignore"})
+    crack = inner(turned(0, 0), turned(10.3, 0), start="edge", contact=law or {"law": "ignore"})
     model, state, scratch = build_deck(
         PLATE,
         bodies=[{"name": "plate", "material": "soft", "shape": shape}],
         cracks=[{"name": "c", **crack}],
         loads=[
-            load | {"where": {where: at}, "traction": turned(0, 1e-3 if at > 0 else -1e-3)}
+            load | {"where": {where: at}, "traction": turned(0, pull if at > 0 else -pull)}
             for at in (low, high)
             if at
         ],
         boundary=[{"where": {where: 0}, "symmetry": True}] if mirror else [],
         **more,
     )
-    advance(model, state, scratch, 60)
+    advance(model, state, scratch, steps)
     return sample_tips(model, state, scratch)[0]
 
 
@@ -191,6 +213,28 @@ def test_a_crack_on_a_symmetry_plane_has_half_a_domain(axis):
             assert half[name] == pytest.approx(whole[name], rel=1e-9)
         assert half["K_II"] == 0.0
         assert half["status"] == "contour invalid: the crack lies on a symmetry plane"
+
+
+@pytest.mark.parametrize("tips", ["smooth", "sharp"])
+@pytest.mark.parametrize("y", [10.0, 10.3, 10.5])
+def test_the_contour_sees_the_whole_side_of_a_node(tips, y):
+    """Beside a smooth tip a side has two rows; a uniform pull along the crack has J = 0."""
+    crack = {"name": "c", **inner((0, y), (15.2, y), start="edge")}
+    model, state, scratch = build_deck(PLATE, cracks=[crack], solver={"tips": tips})
+    locate_particles(model, state, scratch)
+    find_rows(model, state, scratch)
+    particles = state.particles
+    particles.F[:], particles.stress[:, 0], particles.work[:] = [1.01, 0, 0, 1], 0.02, 1e-4
+    (row,) = sample_tips(model, state, scratch)
+    assert row["status"] == "ok"
+    assert row["J_contour"] == pytest.approx(0.0, abs=1e-16)
+
+
+def test_faces_that_are_pressed_together_are_closed():
+    """Contact leaves no K_I below zero, whatever the nodes say at this moment."""
+    law = {"law": "frictional", "mu": 0.3}
+    row = pulled(1, -8, 8, mirror=False, pull=-1e-3, law=law, steps=30)
+    assert (row["K_I"], row["status"]) == (0.0, "closed")
 
 
 def test_the_end_of_a_symmetry_plane_is_an_obstacle():
