@@ -256,3 +256,22 @@ def doctor(
         print(f"problem: {fault}", file=sys.stderr)
     if faults:
         raise typer.Exit(FILES)
+
+
+@app.command()
+def bench(
+    threads: Annotated[
+        int | None, typer.Option("-t", "--threads", min=1, help="Number of threads.")
+    ] = None,
+    large: Annotated[bool, typer.Option("--large", help="With 2.5 million particles.")] = False,
+    start: Annotated[bool, typer.Option("--start", help="Time a cold and a warm start.")] = False,
+    only: Annotated[list[str], typer.Option("--only", help="Cases with this word.")] = (),
+    compare: Annotated[
+        Path | None, typer.Option("--compare", exists=True, help="An older result, as JSON.")
+    ] = None,
+    as_json: Json = False,
+):
+    """Time fixed cases: million particle-steps per second, beside a plain loop ("yards")."""
+    from cramp_cli.commands import run_bench
+
+    run_bench(threads, large, start, list(only), compare, as_json)
