@@ -11,7 +11,7 @@ import numpy as np
 
 from cramp_cli.cracks.crossing import ON_CRACK, crossed_cracks, off_crack
 from cramp_cli.cracks.tip_nodes import cut_share
-from cramp_cli.numerics.kernel import kernel
+from cramp_cli.numerics.kernel import inlined_kernel, kernel
 from cramp_cli.shapes.shape import node_steps, offsets
 from cramp_cli.state.stencil import AROUND, CLOSE, FAR
 
@@ -53,7 +53,7 @@ def forget_rows(rows):
     rows.count[:4] = 0
 
 
-@kernel
+@inlined_kernel
 def find_row(rows, node, a, side_a, b, side_b):
     """Return the row of `node` across cracks a and b (-1 for none) from the given sides, or -1."""
     if a < 0:
@@ -133,7 +133,7 @@ def _comes_first(rows, e, a, side_a, b, side_b):
     return old < (a, b, side_a, side_b)
 
 
-@kernel
+@inlined_kernel
 def join_row(rows, node, a, side_a, b, side_b):
     """Return the row of a pair that crosses cracks a and b from the given sides.
 
@@ -178,7 +178,7 @@ def _is_wrong(rows, node, crack, side):
     return False
 
 
-@kernel
+@inlined_kernel
 def add_normal(rows, row, crack, ends, s):
     """Add segment `s` of a crack, turned from above to below, to the normals of a row."""
     e = row - len(rows.first)
@@ -188,7 +188,7 @@ def add_normal(rows, row, crack, ends, s):
             rows.normal[e, slot, 1] += ends[s, 0] - ends[s, 2]
 
 
-@kernel
+@inlined_kernel
 def add_entry(stencil, line, k, row, share, bx, by):
     """Add an entry to the list of a particle."""
     e = stencil.entries[line]
@@ -198,7 +198,7 @@ def add_entry(stencil, line, k, row, share, bx, by):
     stencil.entries[line] = e + 1
 
 
-@kernel
+@inlined_kernel
 def give_row(stencil, rows, ends, line, k, node, crossed):
     """Give the pair of a particle and its node `k` the row of the cracks it crosses."""
     a, side_a, seg_a, b, side_b, seg_b, more = crossed
@@ -209,7 +209,7 @@ def give_row(stencil, rows, ends, line, k, node, crossed):
     add_entry(stencil, line, k, row, 1.0, 0.0, 0.0)
 
 
-@kernel
+@inlined_kernel
 def give_shares(stencil, rows, ends, line, k, node, crossed, cut, gx, gy):
     """Give the pair of a particle and its node `k` beside a tip two rows: cut and whole."""
     a, side_a, seg_a, b, side_b, seg_b, more = crossed

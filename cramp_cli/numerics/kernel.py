@@ -1,4 +1,4 @@
-"""The two decorators of compiled loops.
+"""The decorators of compiled loops.
 
 Division by zero gives inf (found by the health check of a run) instead of an exception in the
 middle of a loop; sums are never reordered, so the same deck gives the same bits. Kernels let go of
@@ -18,6 +18,9 @@ numba.config.CACHE_DIR = str(cache_folder())
 OPTIONS = {"cache": True, "error_model": "numpy", "nogil": True, "_nrt": False}
 
 kernel = numba.njit(**OPTIONS)
+
+# Short helpers of a loop that are handed many arrays: as calls they would pass hundreds of numbers.
+inlined_kernel = numba.njit(**OPTIONS, forceinline=True)
 
 # Loops over all particles: a product and a sum may become one fused operation, rounded once, and
 # x + 0 is x. Geometry must not: whether a point lies on a crack is decided by differences of equal

@@ -72,7 +72,7 @@ class Timing:
 
 
 def block(side: int, cracked: bool = False, **solver) -> dict:
-    """Return the deck of a square of side x side cells that flies, turns and, maybe, has a crack."""
+    """Return the deck of a flying square of side x side cells, with or without a crack."""
     deck = yaml.safe_load(BLOCK)
     body = {"type": "rectangle", "lower": [0, 0], "upper": [f"{side} mm", f"{side} mm"]}
     moving = {"velocity": [1.0, 0.5], "angular_velocity": 0.05}
