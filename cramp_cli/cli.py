@@ -33,6 +33,24 @@ class Progress(StrEnum):
     none = "none"
 
 
+class Picture(StrEnum):
+    """Pictures that `plot` draws."""
+
+    tips = "tips"
+    energy = "energy"
+    path = "path"
+    field = "field"
+    animation = "animation"
+
+
+class Ink(StrEnum):
+    """Forms of a picture."""
+
+    png = "png"
+    pdf = "pdf"
+    svg = "svg"
+
+
 class Form(StrEnum):
     """Files that `export` writes."""
 
@@ -236,6 +254,45 @@ def export(
     from cramp_cli.output.export import export as write_all
 
     for written in write_all(path, output or path / "export", form.value):
+        print(written)
+
+
+@app.command()
+def plot(
+    path: Run,
+    pictures: Annotated[
+        list[Picture] | None,
+        typer.Argument(help="Which ones [all but animation].", metavar="PICTURE"),
+    ] = None,
+    columns: Annotated[
+        list[str] | None,
+        typer.Option("--column", metavar="NAME", help="A column over time; may be given often."),
+    ] = None,
+    references: Annotated[
+        list[Path] | None,
+        typer.Option(
+            "--reference", metavar="CSV", help="Curves to compare: time and our column names."
+        ),
+    ] = None,
+    field: Annotated[
+        str, typer.Option(help="Quantity of the particles, like stress_yy [von_mises].")
+    ] = "",
+    time: Annotated[str | None, typer.Option(help="Of field and path, like '1 ms' [last].")] = None,
+    magnify: Annotated[float, typer.Option(min=0.0, help="Draw the motion that often.")] = 1.0,
+    form: Annotated[Ink, typer.Option("--format", help="Kind of files.")] = Ink.png,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", help="Folder for them [RUNDIR/pictures].")
+    ] = None,
+):
+    """Draw J and K, energies, cracks and fields of a run.
+
+    Pictures: tips, energy, path, field, animation (GIF). Prints the files.
+    """
+    from cramp_cli.study.plot import PlotOptions, View, plot, seconds
+
+    view = View(field, seconds(time), magnify)
+    options = PlotOptions(pictures or (), columns or (), references or (), view, form.value)
+    for written in plot(path, output or path / "pictures", options):
         print(written)
 
 

@@ -14,6 +14,7 @@ import cramp_cli
 from cramp_cli.output.fields import read_frames
 from cramp_cli.state.failure import NumericalFailure
 
+COMMANDS = ("run", "check", "show", "schema", "info", "export", "plot", "doctor")
 WRONG = "cramp: 1\nanalysis: plane_strian\nsolver: {end_time: 1 kg}\n"
 
 
@@ -35,14 +36,12 @@ def test_version(cramp):
 def test_help_names_every_command(cramp):
     code, out, _ = cramp("--help")
     assert code == 0
-    for name in ("run", "check", "show", "schema", "info", "export", "doctor"):
+    for name in COMMANDS:
         assert f"\n  {name} " in out
     assert "..." not in out.split("Commands:")[1]  # all summaries fit
 
 
-@pytest.mark.parametrize(
-    "name", ["run", "check", "show", "schema", "info", "export", "doctor", "--version"]
-)
+@pytest.mark.parametrize("name", [*COMMANDS, "--version"])
 def test_every_command_has_help_of_80_columns(cramp, name):
     code, out, _ = cramp(name, "--help")
     assert code == 0
@@ -305,7 +304,7 @@ def test_export_prints_what_to_open(cramp, solver, here):
     assert (here / "tables/particles_000000.csv").exists()
 
 
-@pytest.mark.parametrize("command", ["info", "export"])
+@pytest.mark.parametrize("command", ["info", "export", "plot"])
 def test_what_is_no_run_is_named(cramp, here, command):
     for path in ("nowhere", here):
         code, _, err = cramp(command, path)
