@@ -258,6 +258,22 @@ def export(
 
 
 @app.command()
+def preview(
+    deck: Deck,
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", help="The picture: .png, .pdf, .svg [<deck>.png]."),
+    ] = None,
+    sets: Sets = None,
+):
+    """Draw a deck: bodies, cracks, loads, boundary, grid."""
+    from cramp_cli.commands import load_deck
+    from cramp_cli.study.preview import preview as draw
+
+    print(draw(load_deck(deck, sets or []), output or Path(f"{deck.stem}.png")))
+
+
+@app.command()
 def plot(
     path: Run,
     pictures: Annotated[

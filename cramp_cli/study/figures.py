@@ -81,5 +81,5 @@ def save(figure, path: Path) -> Path:
     if path.suffix.lstrip(".").lower() not in FORMS:
         raise FolderError(f"{path}: a picture's name ends with .png, .pdf or .svg")
     path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path)
+    figure.savefig(path, bbox_inches="tight", pad_inches=0.04)
     return path

@@ -14,7 +14,7 @@ import cramp_cli
 from cramp_cli.output.fields import read_frames
 from cramp_cli.state.failure import NumericalFailure
 
-COMMANDS = ("run", "check", "show", "schema", "info", "export", "plot", "doctor")
+COMMANDS = ("run", "check", "show", "schema", "info", "export", "preview", "plot", "doctor")
 WRONG = "cramp: 1\nanalysis: plane_strian\nsolver: {end_time: 1 kg}\n"
 
 
@@ -178,13 +178,18 @@ def test_what_show_writes_is_a_deck(cramp, here):
     assert cramp("show", "again.yaml")[1] == cramp("show", "plate.yaml")[1]
 
 
+def test_preview_draws_a_deck(cramp, here):
+    assert cramp("preview", "plate.yaml", "-s", "solver.cfl=0.3") == (0, "plate.png\n", "")
+    assert (here / "plate.png").read_bytes().startswith(b"\x89PNG")
+
+
 def test_schema_is_json(cramp):
     code, out, _ = cramp("schema")
     assert code == 0
     assert {"materials", "cracks", "grid"} <= set(json.loads(out)["properties"])
 
 
-@pytest.mark.parametrize("command", ["run", "check", "show"])
+@pytest.mark.parametrize("command", ["run", "check", "show", "preview"])
 def test_a_missing_deck_is_named(cramp, command):
     code, out, err = cramp(command, "nowhere.yaml")
     assert (code, out) == (4, "")
