@@ -15,6 +15,7 @@ from typing import Annotated
 import typer
 
 from cramp_cli import __version__
+from cramp_cli.cli_sweep import sweep
 
 app = typer.Typer(
     add_completion=False,
@@ -22,6 +23,8 @@ app = typer.Typer(
     rich_markup_mode=None,
     help="Fracture simulation with explicit cracks in the material point method.",
 )
+
+app.add_typer(sweep, name="sweep")
 
 
 class Progress(StrEnum):

@@ -2,10 +2,11 @@
 
 import numpy as np
 
-from cramp_cli.deck.deck import read_deck, to_yaml
+from cramp_cli.deck.deck import check_deck, to_yaml
 from cramp_cli.output.folder import RunFolder
 from cramp_cli.output.run import RunOutputs
 from cramp_cli.output.summary import Summary
+from cramp_cli.schema.loader import load
 
 PLATE = """\
 cramp: 1
@@ -34,9 +35,7 @@ def write_run(path, K_I=3e5, statuses=("ok", "closed", "ok")):
 
     The plate is stretched along y and its notch opens by a share of its length.
     """
-    deck_path = path.parent / "plate.yaml"
-    deck_path.write_text(PLATE, encoding="utf-8")
-    deck = read_deck(deck_path)
+    deck = check_deck(load(PLATE), path.parent)
     texts = deck.source_text, to_yaml(deck.resolved())
     with (
         RunFolder(path, overwrite=True) as folder,

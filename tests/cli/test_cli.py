@@ -14,7 +14,18 @@ import cramp_cli
 from cramp_cli.output.fields import read_frames
 from cramp_cli.state.failure import NumericalFailure
 
-COMMANDS = ("run", "check", "show", "schema", "info", "export", "preview", "plot", "doctor")
+COMMANDS = (
+    "run",
+    "check",
+    "show",
+    "schema",
+    "info",
+    "export",
+    "preview",
+    "plot",
+    "sweep",
+    "doctor",
+)
 WRONG = "cramp: 1\nanalysis: plane_strian\nsolver: {end_time: 1 kg}\n"
 
 
@@ -373,3 +384,20 @@ def test_an_interrupted_run_can_be_read(here):
     assert (manifest["status"], manifest["exit_code"]) == ("interrupted", 130)
     assert "interrupted" in shell("cramp info plate.run").stdout
     assert len(list(read_frames(here / "plate.run/particles.xdmf"))) >= 1
+
+
+def test_a_sweep_runs_from_end_to_end(here):
+    """Two cases, of which one ends early: its exit code is in the table, the other has a K_I."""
+    study = "cramp_sweep: 1\ndeck: plate.yaml\nset: {solver.energy_error.warn: 1e-9}\nvary:\n"
+    cases = "  - {type: grid, over: {solver.energy_error.stop: [0.1, 1e-9]}}\n"
+    (here / "limits.sweep.yaml").write_text(study + cases + "collect: [{column: K_I}]\n")
+    run = shell("cramp sweep run limits.sweep.yaml -j 1")
+    assert (run.returncode, run.stdout) == (1, "limits.sweep\n"), run.stderr
+    head, failed = shell("cramp sweep status limits.sweep.yaml").stdout.splitlines()
+    assert head == "limits.sweep.yaml: 2 cases, 1 done, 1 failed"
+    assert "the energy balance is off by" in failed
+    table = shell("cramp sweep collect limits.sweep.yaml").stdout.strip()
+    _, good, bad = (here / table).read_text().splitlines()
+    assert good.split(",")[1:4] == ["0.1", "done", "0"]
+    assert float(good.split(",")[4]) > 0.0
+    assert bad.split(",")[1:] == ["1e-09", "failed", "6", ""]
