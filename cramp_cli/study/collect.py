@@ -142,4 +142,4 @@ def cases_table(cases: Sequence[Case]) -> str:
 def _cell(value: object) -> str:
     if value is None:
         return ""
-    return f"{value:.17g}" if isinstance(value, float) else shown(value)
+    return repr(value) if isinstance(value, float) else shown(value)
