@@ -117,6 +117,24 @@ def cramp(
 
 
 @app.command()
+def init(
+    template: Annotated[str, typer.Argument(help="Which one; see --list.")] = "center_crack",
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", help="The new file [<template>.yaml].")
+    ] = None,
+    listed: Annotated[bool, typer.Option("--list", help="Tell all templates.")] = False,
+):
+    """Write a commented deck that runs within a minute."""
+    from cramp_cli.study.templates import list_text, write_template
+
+    if listed:
+        print(list_text())
+        return
+    for written in write_template(template, output):
+        print(written)
+
+
+@app.command()
 def run(
     context: typer.Context,
     deck: Deck,

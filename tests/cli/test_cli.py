@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+import tomllib
 
 import pytest
 import yaml
@@ -13,6 +14,7 @@ import yaml
 import cramp_cli
 from cramp_cli.output.fields import read_frames
 from cramp_cli.state.failure import NumericalFailure
+from cramp_cli.study.templates import PACKAGE, template_folder, templates
 
 COMMANDS = (
     "run",
@@ -125,6 +127,36 @@ def test_a_foreign_alphabet_ends_nothing(here):
 
 
 # ------------------------------------------------------------------ decks
+
+
+def test_init_writes_a_deck_without_mistakes(cramp, here):
+    assert cramp("init") == (0, "center_crack.yaml\n", "")
+    assert cramp("check", "--strict", "center_crack.yaml")[0] == 0
+    code, out, err = cramp("init")
+    assert (code, out) == (4, "")
+    assert err == "cramp: center_crack.yaml: exists already; choose another file with -o\n"
+    assert cramp("init", "dcb", "-o", "mine/beam.yaml")[1] == "mine/beam.yaml\n"
+    assert "did you mean 'dcb'" in cramp("init", "dbc")[2]
+
+
+def test_init_brings_the_deck_of_a_study(cramp, here):
+    code, out, _ = cramp("init", "edge_crack.sweep")
+    assert (code, out) == (0, "edge_crack.sweep.yaml\nedge_crack.yaml\n")
+    assert cramp("sweep", "expand", "edge_crack.sweep.yaml")[0] == 0
+
+
+def test_all_templates_are_listed_with_a_title(cramp):
+    lines = cramp("init", "--list")[1].splitlines()
+    assert {line.split()[0] for line in lines} == set(templates())
+    assert all(len(line.split(maxsplit=1)[1]) > 10 for line in lines)
+
+
+def test_the_wheel_holds_the_templates(here):
+    """Where inputs/ stands in a clone, pyproject.toml puts it into the package."""
+    wheel = tomllib.loads((PACKAGE.parent / "pyproject.toml").read_text(encoding="utf-8"))
+    wheel = wheel["tool"]["hatch"]["build"]["targets"]["wheel"]
+    assert wheel["force-include"] == {"inputs": "cramp_cli/inputs"}
+    assert template_folder() == PACKAGE.parent / "inputs"
 
 
 def test_check_of_a_good_deck(cramp):
