@@ -334,6 +334,19 @@ def plot(
 
 
 @app.command()
+def report(
+    path: Run,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", help="The page [RUNDIR/report.html].")
+    ] = None,
+):
+    """Write one HTML page about a run, to look at or send."""
+    from cramp_cli.study.report import report as write
+
+    print(write(path, output or path / "report.html"))
+
+
+@app.command()
 def doctor(
     warmup: Annotated[bool, typer.Option("--warmup", help="Compile all kernels now.")] = False,
 ):

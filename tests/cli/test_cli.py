@@ -140,9 +140,9 @@ def test_init_writes_a_deck_without_mistakes(cramp, here):
 
 
 def test_init_brings_the_deck_of_a_study(cramp, here):
-    code, out, _ = cramp("init", "edge_crack.sweep")
-    assert (code, out) == (0, "edge_crack.sweep.yaml\nedge_crack.yaml\n")
-    assert cramp("sweep", "expand", "edge_crack.sweep.yaml")[0] == 0
+    code, out, _ = cramp("init", "dcb.sweep")
+    assert (code, out) == (0, "dcb.sweep.yaml\ndcb.yaml\n")
+    assert cramp("sweep", "expand", "dcb.sweep.yaml")[0] == 0
 
 
 def test_all_templates_are_listed_with_a_title(cramp):
@@ -352,7 +352,7 @@ def test_export_prints_what_to_open(cramp, solver, here):
     assert (here / "tables/particles_000000.csv").exists()
 
 
-@pytest.mark.parametrize("command", ["info", "export", "plot"])
+@pytest.mark.parametrize("command", ["info", "export", "plot", "report"])
 def test_what_is_no_run_is_named(cramp, here, command):
     for path in ("nowhere", here):
         code, _, err = cramp(command, path)
