@@ -143,7 +143,8 @@ def test_what_is_no_run_has_no_report(tmp_path):
 DRIVE = """
 <script>
 const CHART = "figure svg[role=img]", told = { errors: [] };
-const one = (query) => document.querySelector(query), all = (query) => document.querySelectorAll(query);
+const one = (query) => document.querySelector(query);
+const all = (query) => document.querySelectorAll(query);
 told.svg = all(CHART).length;
 window.addEventListener("error", (event) => told.errors.push(event.message));
 const press = (node, key) => node.dispatchEvent(new KeyboardEvent("keydown", { key }));
