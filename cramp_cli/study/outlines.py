@@ -13,7 +13,8 @@ THIN = 1e-3  # of a cell: how near a face lies to the plane that names it
 class Region(NamedTuple):
     """Where a load or a boundary acts."""
 
-    lines: list[np.ndarray]  # pieces of a plane on the body, each (2, 2) in m
+    lines: list[np.ndarray]  # pieces of a plane on the body, each (2, 2) in m; none for an area
+    area: object  # the part of the body in a box, a shapely geometry; None for a plane
     centre: np.ndarray  # of the region, or of all bodies if it meets none (m)
     body: object  # what it acts on, a shapely geometry
 
@@ -84,14 +85,14 @@ def region_of(where: Where, body, cell: float) -> Region:
     if not where.planes:
         part = body & box(*np.minimum(low, high), *np.maximum(low, high))
         found = part if not part.is_empty else body
-        return Region([], np.array(found.centroid.coords[0]), body)
+        return Region([], found, np.array(found.centroid.coords[0]), body)
     for near in (THIN, 0.51, 1.01):
         part = body.buffer(near * cell, join_style="mitre") & LineString([low, high])
         pieces = [p for p in getattr(part, "geoms", [part]) if p.length > 0.0]
         if pieces:
             break
     lines = [np.array(piece.coords)[[0, -1]] for piece in pieces]
-    return Region(lines, np.array(body.centroid.coords[0]), body)
+    return Region(lines, None, np.array(body.centroid.coords[0]), body)
 
 
 def _length(line: np.ndarray) -> float:

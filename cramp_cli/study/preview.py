@@ -164,6 +164,8 @@ class _Sketch:
             size = float(np.hypot(*way))
             scale = scale_for(unit, size)
             text = f"{name}: {size / scale.size:.3g} {scale.unit}{_over_time(load)}"
+            for hull, _ in exteriors(region.area) if region.area else ():
+                self.axes.fill(*hull.T / self.length.size, color=RED, alpha=0.3, lw=0, zorder=4)
             places = region.places(ARROWS, way, 2.0 * self.arrow)
             self._arrows(places, way, RED, text, from_behind=load.type == "traction")
 

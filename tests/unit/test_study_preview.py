@@ -57,6 +57,11 @@ def test_a_plane_shows_as_its_part_on_the_body(deck):
     np.testing.assert_allclose(np.sort(side.lines[0][:, 1]), [0.018, 0.03], atol=2e-6)
 
 
+def test_a_box_shows_as_its_part_of_the_body(deck):
+    box = deck.loads[0].where.model_copy(update={"x": (-0.01, 0.004), "y": None})
+    assert region(deck, box).area.area == pytest.approx(0.004 * 0.03)
+
+
 def test_a_pressure_pushes_into_the_body(deck):
     np.testing.assert_allclose(region(deck, deck.loads[0].where).inward(), [1.0, 0.0], atol=1e-9)
 

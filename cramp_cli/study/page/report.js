@@ -23,7 +23,7 @@ function make(parent, name, attributes = {}, text = "") {
 
 function shown(value) {
   if (value === null || value === undefined) return "none";
-  return Number(value.toPrecision(4)).toString().replace("-", "\u2212");
+  return Number(value.toPrecision(4)).toString().replaceAll("-", "\u2212");
 }
 
 function timeText(time) {
@@ -90,7 +90,7 @@ function chart(host, spec) {
     svg.replaceChildren();
     const [low, high] = range();
     const y = (value) => TOP + ((TALL - TOP - BOTTOM) * (high - value)) / (high - low);
-    for (const value of ticks(low, high, 5)) {
+    for (const value of ticks(low, high, 6)) {
       make(svg, "path", { d: `M${LEFT} ${y(value)}H${WIDE - RIGHT}`, class: value ? "grid" : "zero" });
       make(svg, "text", { x: LEFT - 8, y: y(value) + 4, "text-anchor": "end" }, shown(value));
     }
@@ -190,11 +190,11 @@ function showFilm(film) {
     const paper = canvas.getContext("2d"), ink = getComputedStyle(document.body);
     const px = (x) => left + (x - x0) * scale, py = (y) => top + (y1 - y) * scale;
     const points = unpacked(film.frames[frame].points, Uint16Array);
-    const values = unpacked(one.values[frame], Uint8Array), side = film.size * scale * 1.06;
+    const values = unpacked(one.values[frame], Uint8Array), side = film.size * scale;
     values.forEach((level, n) => {
       const x = px(x0 + (points[2 * n] / 65535) * (x1 - x0)), y = py(y0 + (points[2 * n + 1] / 65535) * (y1 - y0));
       paper.fillStyle = colours[level];
-      paper.fillRect(x - side / 2, y - side / 2, side, side);
+      paper.fillRect(Math.floor(x - side / 2), Math.floor(y - side / 2), Math.ceil(side) + 1, Math.ceil(side) + 1);
     });
     cracks(paper, px, py, ratio, ink);
     scaleBar(paper, scale, wide, tall, ratio, ink);
