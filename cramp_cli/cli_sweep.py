@@ -20,6 +20,7 @@ class Backend(StrEnum):
 
     local = "local"
     slurm = "slurm"
+    dask = "dask"
 
 
 @sweep.command()
@@ -52,8 +53,11 @@ def run(
         bool, typer.Option("--force", help=f"Run more than {MOST_UNASKED} cases.")
     ] = False,
     backend: Annotated[
-        Backend, typer.Option(help="Here, or as a script for sbatch.")
+        Backend, typer.Option(help="Here, as a script for sbatch, or on dask workers.")
     ] = Backend.local,
+    scheduler: Annotated[
+        str, typer.Option(metavar="ADDRESS", help="Of dask, like tcp://host:8786.")
+    ] = "",
 ):
     """Run the cases that are not done yet; print the folder.
 
@@ -61,8 +65,11 @@ def run(
     """
     from cramp_cli.study.manage import SweepOptions, run_study
 
+    if (backend is Backend.dask) != bool(scheduler):
+        raise typer.BadParameter("--backend dask and --scheduler ADDRESS go together")
     most = None if force or only else MOST_UNASKED
-    options = SweepOptions(output, jobs, threads, only, backend.value, context.obj.verbosity, most)
+    loud = context.obj.verbosity
+    options = SweepOptions(output, jobs, threads, only, backend.value, scheduler, loud, most)
     code, written = run_study(study, options)
     print(written)
     raise typer.Exit(code)

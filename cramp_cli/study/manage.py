@@ -12,9 +12,11 @@ from cramp_cli.output.exits import DIFFERENT, DONE, OutOfResources
 from cramp_cli.output.tables import duration
 from cramp_cli.study.cases import Case, expand
 from cramp_cli.study.collect import check_columns, collect, write_results
+from cramp_cli.study.dask_backend import run_on_dask
+from cramp_cli.study.one_case import Sweep
 from cramp_cli.study.outcome import WORDS, Outcome, SweepFolder
 from cramp_cli.study.slurm import write_slurm
-from cramp_cli.study.sweep import Sweep, default_folder, only, run_cases, to_do
+from cramp_cli.study.sweep import default_folder, only, run_cases, to_do
 
 
 class SweepOptions(NamedTuple):
@@ -25,6 +27,7 @@ class SweepOptions(NamedTuple):
     threads: int = 1
     only: str | None = None
     backend: str = "local"
+    scheduler: str = ""  # address, for the backend dask
     verbosity: int = 1
     most: int | None = None  # cases; more are refused
 
@@ -61,11 +64,22 @@ def run_study(path: Path, options: SweepOptions) -> tuple[int, Path]:
         return DONE, write_slurm(sweep, path, todo, options.jobs, sys.executable)
     teller = _Teller(len(todo), options.verbosity)
     teller.begin(len(cases))
-    run_cases(sweep, todo, options.jobs, teller.tell)
+    if options.backend == "dask":
+        run_on_dask(sweep, todo, options.scheduler, teller.tell)
+    else:
+        run_cases(sweep, todo, options.jobs, teller.tell)
     outcomes = [folder.outcome(case.name) for case in cases]
     if options.only:
-        return outcomes[0].exit_code or DONE, folder.run(options.only)
+        return _code_of(outcomes[0]), folder.run(options.only)
     return DONE if all(one.word == "done" for one in outcomes) else DIFFERENT, folder.path
+
+
+def _code_of(outcome: Outcome) -> int:
+    """Return the exit code of a case, as a shell tells that of a process ended by a signal."""
+    code = outcome.exit_code
+    if outcome.word == "done":
+        return DONE
+    return DIFFERENT if not code else code if code > 0 else 128 - code
 
 
 class _Teller:

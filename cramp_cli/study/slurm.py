@@ -8,7 +8,7 @@ from pathlib import Path
 from cramp_cli.output.atomic import write_text
 from cramp_cli.output.exits import STOPPED
 from cramp_cli.study.cases import Case
-from cramp_cli.study.sweep import Sweep
+from cramp_cli.study.one_case import Sweep
 
 SCRIPT = """\
 #!/bin/bash

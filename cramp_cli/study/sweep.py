@@ -3,32 +3,20 @@
 import contextlib
 import signal
 import subprocess
-import sys
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 from threading import Event, Lock
-from time import monotonic
-from typing import NamedTuple
+from typing import BinaryIO
 
 from cramp_cli.output.exits import FolderError
 from cramp_cli.output.machine import usable_cpus
 from cramp_cli.schema.section import meant_by
 from cramp_cli.study.cases import Case
-from cramp_cli.study.outcome import Outcome, SweepFolder
+from cramp_cli.study.one_case import Sweep, run_case, start
+from cramp_cli.study.outcome import Outcome
 
 LEFT_ALONE = ("done", "running")
-GRACE = 10.0  # s between the request to end and the end
-
-
-class Sweep(NamedTuple):
-    """What is run, and where."""
-
-    deck: Path
-    cases: Sequence[Case]
-    folder: SweepFolder
-    timeout: float | None = None  # s on the clock
-    threads: int = 1  # of each run
 
 
 def default_folder(study: Path) -> Path:
@@ -74,55 +62,30 @@ def run_cases(
             raise
 
 
-def command(sweep: Sweep, case: Case) -> list[str]:
-    """Return the words that run a case."""
-    settings = [word for setting in case.settings for word in ("-s", setting)]
-    run = [str(sweep.deck), "-o", str(sweep.folder.run(case.name)), "--overwrite"]
-    how = ["-t", str(sweep.threads), "--progress", "none"]
-    return [sys.executable, "-m", "cramp_cli", "-q", "run", *run, *how, *settings]
-
-
 class _Crew:
     """The processes that run now."""
 
     def __init__(self):
         self.stopped, self.lock = Event(), Lock()
-        self.processes: set[subprocess.Popen] = set()
+        self.processes: list[subprocess.Popen] = []
 
     def run(self, sweep: Sweep, case: Case) -> None:
-        """Run a case to its end and write down how it ended."""
-        folder = sweep.folder
-        folder.ended(case.name).unlink(missing_ok=True)
-        begun, hung = monotonic(), False
-        with folder.log(case.name).open("wb") as log:
-            process = self._start(command(sweep, case), log)
-            if process is None:
-                return
-            try:
-                process.wait(sweep.timeout)
-            except subprocess.TimeoutExpired:
-                hung = True
-                _end(process)
-        with self.lock:
-            self.processes.discard(process)
-        folder.note(case.name, process.returncode, monotonic() - begun, hung)
+        """Run a case to its end."""
+        run_case(sweep, case, self._start)
 
-    def _start(self, words, log) -> subprocess.Popen | None:
+    def _start(self, words: Sequence[str], log: BinaryIO) -> subprocess.Popen | None:
         with self.lock:
             if self.stopped.is_set():
                 return None
-            process = subprocess.Popen(
-                words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=log
-            )
-            self.processes.add(process)
+            process = start(words, log)
+            self.processes.append(process)
             return process
 
     def end(self, number: int) -> None:
         """Start nothing any more and send a signal to what runs."""
         self.stopped.set()
         for process in list(self.processes):
-            with contextlib.suppress(ProcessLookupError):
-                process.send_signal(number)
+            process.send_signal(number)  # does nothing to one that has ended
 
     @contextlib.contextmanager
     def passing_signals_on(self):
@@ -134,13 +97,3 @@ class _Crew:
         finally:
             for number, handler in zip(numbers, before, strict=True):
                 signal.signal(number, handler)
-
-
-def _end(process: subprocess.Popen) -> None:
-    """End a process, by force if it does not listen."""
-    process.terminate()
-    try:
-        process.wait(GRACE)
-    except subprocess.TimeoutExpired:
-        process.kill()
-        process.wait()

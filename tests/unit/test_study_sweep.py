@@ -14,7 +14,7 @@ from written import PLATE, write_run
 from cramp_cli.deck.sweep import read_study
 from cramp_cli.output.exits import DIFFERENT, DONE, FolderError, OutOfResources
 from cramp_cli.schema.mistake import DeckError
-from cramp_cli.study import sweep as sweeping
+from cramp_cli.study import one_case
 from cramp_cli.study.cases import expand
 from cramp_cli.study.collect import in_si
 from cramp_cli.study.manage import (
@@ -162,6 +162,8 @@ def manifest(code, status):
     record = {"program": "cramp", "status": status, "exit_code": code, "error": "went wrong"}
     (folder / "manifest.json").write_text(json.dumps(record))
 manifest(None, "running")
+K_I = int(folder.name, 16) % 1000 / 7
+(folder / "cracks.csv").write_text(f"time,crack,tip,K_I\\n0,notch,end,{K_I}\\n")
 if how == "hang": time.sleep(60)
 if how == "die": os.kill(os.getpid(), signal.SIGKILL)
 code = {"fail": 6, "refuse": 4}.get(how, 0)
@@ -183,7 +185,7 @@ def workers(monkeypatch):
         words = [str(sweep.folder.run(case.name)), how.get(case.parameters["solver.cfl"], "done")]
         return [sys.executable, "-c", WORKER, *words]
 
-    monkeypatch.setattr(sweeping, "command", command)
+    monkeypatch.setattr(one_case, "command", command)
     return how
 
 
@@ -251,6 +253,50 @@ def test_a_signal_to_end_reaches_the_runs(study, workers):
     timer.join()
     assert code == DIFFERENT
     assert "2 killed, 2 missing" in tell_study(path, None, as_json=False)
+
+
+def test_a_run_that_lost_its_starter_is_waited_for(study, workers, monkeypatch):
+    """Another dask worker takes the case while its run goes on: one life, and it is done."""
+    path = study(FOUR)
+    opened = open_study(path)
+    sweep = one_case.Sweep(opened.study.deck_path, opened.cases, opened.folder)
+    case, run = opened.cases[0], opened.folder.run(opened.cases[0].name)
+    write_run(run)
+    (run / "manifest.json").write_text('{"program": "cramp", "exit_code": null}')
+    looks = []
+
+    def sleep(seconds):
+        looks.append(seconds)
+        (run / "manifest.json").write_text('{"program": "cramp", "exit_code": 0}')
+
+    monkeypatch.setattr(one_case, "sleep", sleep)
+    monkeypatch.setattr(one_case, "in_use", lambda folder: folder == run and not looks)
+    assert one_case.take_up(sweep, case) == "done"
+    assert len(looks) == 1
+    assert not (run / "lives").exists()
+
+
+def test_the_table_from_dask_is_that_from_here(study, workers, tmp_path):
+    distributed = pytest.importorskip("distributed")
+    path = study(FOUR + "collect: [{column: K_I}]\n")
+    here, there = tmp_path / "here.csv", tmp_path / "there.csv"
+    workers[0.3] = "fail"
+    run_study(path, OPTIONS)
+    collect_study(path, None, here)
+    with distributed.LocalCluster(2, threads_per_worker=1, processes=False) as cluster:
+        address = cluster.scheduler_address
+        options = OPTIONS._replace(output=tmp_path / "d", backend="dask", scheduler=address)
+        assert run_study(path, options)[0] == DIFFERENT
+    collect_study(path, tmp_path / "d", there)
+    assert there.read_bytes() == here.read_bytes()
+    assert len(set(here.read_text().split())) == 5  # a head and four different rows
+
+
+def test_without_a_scheduler_one_line_says_so(study, workers):
+    pytest.importorskip("distributed")
+    options = OPTIONS._replace(backend="dask", scheduler="tcp://127.0.0.1:1")
+    with pytest.raises(FolderError, match="no dask scheduler answers"):
+        run_study(study(FOUR), options)
 
 
 def test_slurm_gets_the_cases_that_are_not_done(study, workers):
