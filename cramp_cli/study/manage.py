@@ -17,6 +17,7 @@ from cramp_cli.study.one_case import Sweep
 from cramp_cli.study.outcome import WORDS, Outcome, SweepFolder
 from cramp_cli.study.slurm import write_slurm
 from cramp_cli.study.sweep import default_folder, only, run_cases, to_do
+from cramp_cli.study.sweep_report import sweep_report
 
 
 class SweepOptions(NamedTuple):
@@ -129,3 +130,10 @@ def collect_study(
     study, cases, folder = open_study(path, output)
     rows = collect(cases, folder, study.collect, wall_time)
     return write_results(table or folder.path / "results.csv", rows)
+
+
+def report_study(path: Path, output: Path | None, page: Path | None) -> Path:
+    """Write the page of a sweep and return its path."""
+    study, cases, folder = open_study(path, output)
+    rows = collect(cases, folder, study.collect, wall_time=True)
+    return sweep_report(page or folder.path / "report.html", study.title or path.stem, rows)

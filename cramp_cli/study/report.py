@@ -1,19 +1,16 @@
 """One HTML page about a run that needs nothing beside it: no network, no other file."""
 
 import html
-import json
-import re
 from pathlib import Path
 
 from cramp_cli.deck.deck import read_deck
-from cramp_cli.output.atomic import plain, write_text
 from cramp_cli.output.look import describe, facts
 from cramp_cli.output.tables import number
+from cramp_cli.study.html_page import embedded, table, write_page
 from cramp_cli.study.page_data import charts, film
 from cramp_cli.study.quantities import label, scale_for
 from cramp_cli.study.verdicts import Verdict, judge
 
-PAGE = Path(__file__).parent / "page"
 MARKS = {"good": "✓ good", "look": "! look", "bad": "✗ bad"}
 WORST = ("bad", "look", "good")
 SHOWN = {
@@ -26,7 +23,6 @@ SHOWN = {
     "K_II": "Pa*m^0.5",
 }  # column of the table of tips: unit
 LOG_LINES = 200
-PLACE = re.compile(r"\{\{(\w+)\}\}")
 
 
 def report(run: Path, target: Path) -> Path:
@@ -41,23 +37,14 @@ def report(run: Path, target: Path) -> Path:
     parts = {
         "title": html.escape(deck.title or run.name),
         "subtitle": html.escape(f"{run.name}: {known['status']}, {known['time']}"),
-        "style": _asset("report.css"),
         "verdicts": _verdict_table(verdicts),
         "tips": _tip_table(found["tips"]),
-        "facts": _table(["", ""], [[name, str(value)] for name, value in known.items()]),
+        "facts": table(["", ""], [[name, str(value)] for name, value in known.items()]),
         "deck": html.escape(_text(run / "input.yaml")),
         "log": html.escape("\n".join(_text(run / "run.log").splitlines()[-LOG_LINES:])),
         "data": _data(run),
-        "script": _asset("report.js"),
     }
-    page = PLACE.sub(lambda place: parts[place[1]], _asset("report.html"))
-    target.parent.mkdir(parents=True, exist_ok=True)
-    write_text(target, page)
-    return target
-
-
-def _asset(name: str) -> str:
-    return (PAGE / name).read_text(encoding="utf-8")
+    return write_page(target, "report", parts)
 
 
 def _text(path: Path) -> str:
@@ -65,19 +52,13 @@ def _text(path: Path) -> str:
 
 
 def _data(run: Path) -> str:
-    """Return what the script draws, as JSON that cannot end the element it stands in."""
+    """Return what the script draws."""
     drawn, moving = charts(run), film(run)
     times = [line["time"][-1] for one in drawn for line in one["lines"] if line["time"]]
     times += [frame["time"] for frame in moving["frames"]] if moving else []
     end = max(times, default=0.0)
-    record = {
-        "charts": drawn,
-        "film": moving,
-        "end": end,
-        "time": scale_for("s", end)._asdict(),
-    }
-    text = json.dumps(plain(record), ensure_ascii=False, separators=(",", ":"))
-    return text.replace("<", "\\u003c")
+    scale = scale_for("s", end)._asdict()
+    return embedded({"charts": drawn, "film": moving, "end": end, "time": scale})
 
 
 def _verdict_table(verdicts: list[Verdict]) -> str:
@@ -104,17 +85,4 @@ def _tip_table(tips: list[dict]) -> str:
         + [tip["status"]]
         for tip in tips
     ]
-    return _table([*heads, "status"], rows, numbers=range(1, len(SHOWN) + 1))
-
-
-def _table(heads: list[str], rows: list[list[str]], numbers=()) -> str:
-    """Return a table; `numbers` are the columns that are aligned to the right."""
-    kinds = [' class="number"' if n in numbers else "" for n in range(len(heads))]
-    head = "".join(f"<th{k}>{html.escape(h)}</th>" for k, h in zip(kinds, heads, strict=True))
-    lines = (
-        "".join(f"<td{k}>{html.escape(c)}</td>" for k, c in zip(kinds, r, strict=True))
-        for r in rows
-    )
-    body = "".join(f"<tr>{line}</tr>" for line in lines)
-    top = f"<thead><tr>{head}</tr></thead>" if any(heads) else ""
-    return f'<div class="scroll"><table>{top}<tbody>{body}</tbody></table></div>'
+    return table([*heads, "status"], rows, numbers=range(1, len(SHOWN) + 1))

@@ -3,6 +3,7 @@
 import csv
 import json
 import os
+import re
 import signal
 import sys
 import threading
@@ -21,6 +22,7 @@ from cramp_cli.study.manage import (
     SweepOptions,
     collect_study,
     open_study,
+    report_study,
     run_study,
     tell_study,
 )
@@ -361,6 +363,21 @@ def test_a_row_per_case_with_its_numbers(study):
     assert [float(first[name]) for name in list(first)[5:]] == [4e5, 2e5, 0.0, 2e-6]
     assert (first["thickness"], first["title"], first["state"]) == ("0.001", "", "done")
     assert (second["title"], second["state"], second["notch_end.J.min"]) == ("b", "missing", "")
+
+
+def test_the_page_of_a_sweep_holds_every_case(study):
+    path = study(HEAD + "  - {type: list, cases: [{thickness: 1 mm}, {title: <b>}]}\n" + COLLECT)
+    opened = open_study(path)
+    write_run(opened.folder.run(opened.cases[0].name), K_I=4e5)
+    page = report_study(path, None, None).read_text(encoding="utf-8")
+    data = json.loads(re.search(r'id="data">(.*?)</script>', page)[1])
+    assert data["parameters"] == ["thickness", "title"]
+    assert list(data["numbers"].values())[0] == "notch_end.K_I.max (Pa*m^0.5)"
+    assert [row["thickness"] for row in data["rows"]] == [0.001, None]
+    assert data["rows"][0]["notch_end.K_I.max"] == 4e5
+    assert '<p class="sub">2 cases: 1 done, 1 missing</p>' in page
+    assert "&lt;b&gt;" in page
+    assert "<td><b>" not in page
 
 
 def test_an_unknown_tip_is_named(study):
