@@ -70,8 +70,9 @@ class _Crew:
         self.processes: list[subprocess.Popen] = []
 
     def run(self, sweep: Sweep, case: Case) -> None:
-        """Run a case to its end."""
-        run_case(sweep, case, self._start)
+        """Run a case to its end, unless another sweep of the same study has taken it by now."""
+        if sweep.folder.outcome(case.name).word not in LEFT_ALONE:
+            run_case(sweep, case, self._start)
 
     def _start(self, words: Sequence[str], log: BinaryIO) -> subprocess.Popen | None:
         with self.lock:

@@ -26,6 +26,7 @@ from cramp_cli.study.manage import (
     run_study,
     tell_study,
 )
+from cramp_cli.study.sweep import run_cases, to_do
 
 HEAD = "cramp_sweep: 1\ndeck: plate.yaml\nvary:\n"
 FOUR = HEAD + "  - {type: grid, over: {solver.cfl: [0.1, 0.2, 0.3, 0.4]}}\n"
@@ -226,6 +227,16 @@ def test_a_run_that_never_began_says_why(study, workers):
     run_study(path, OPTIONS)
     assert "failed" in tell_study(path, None, as_json=False)
     assert "disk on fire" in tell_study(path, None, as_json=False)
+
+
+def test_a_case_that_another_sweep_has_done_meanwhile_is_left_alone(study, workers):
+    path = study(FOUR)
+    opened = open_study(path)
+    sweep = one_case.Sweep(opened.study.deck_path, opened.cases, opened.folder)
+    todo = to_do(sweep)
+    run_study(path, OPTIONS)
+    run_cases(sweep, todo, 1, lambda case, outcome: None)
+    assert [lives(path, cfl) for cfl in (0.1, 0.2, 0.3, 0.4)] == [["done"]] * 4
 
 
 def test_one_case_alone_ends_with_its_own_code(study, workers):
