@@ -6,10 +6,11 @@ from typing import NamedTuple
 
 from cramp_cli.output.exits import FolderError
 from cramp_cli.schema.unit_text import UnitError, base_units, split
+from cramp_cli.study.crack_path import draw_path
 from cramp_cli.study.curves import draw_columns, draw_energy, draw_tips
 from cramp_cli.study.figures import drawing, save
 from cramp_cli.study.results import require_run
-from cramp_cli.study.snapshots import View, animate, draw_field, draw_path
+from cramp_cli.study.snapshots import View, animate, draw_field
 
 KINDS = {
     "tips": "cracks.csv",

@@ -8,13 +8,14 @@ from PIL import Image
 from written import STRETCH, write_run
 
 from cramp_cli.output.exits import FILES, FolderError, exit_code
+from cramp_cli.study.crack_path import draw_path
 from cramp_cli.study.curves import draw_columns, draw_energy, draw_tips
 from cramp_cli.study.figures import NoMatplotlib, drawing, save
 from cramp_cli.study.particles import quantity, squares, von_mises
 from cramp_cli.study.plot import PlotOptions, plot, seconds
 from cramp_cli.study.quantities import label, scale_for
 from cramp_cli.study.results import by_tip, frame_at, read_table
-from cramp_cli.study.snapshots import View, colour_limits, draw_field, draw_path
+from cramp_cli.study.snapshots import View, colour_limits, draw_field
 
 
 @pytest.fixture(scope="module")
