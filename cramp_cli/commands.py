@@ -59,7 +59,8 @@ def _simulate(deck, model, state, folder, threads: int, options: RunOptions) -> 
         for warning in deck.warnings:
             outputs.log.write("warning", str(warning))
         with reporter:
-            summary = simulate(deck, model, state, outputs, reporter, profile=options.profile)
+            how = {"threads": threads, "profile": options.profile}
+            summary = simulate(deck, model, state, outputs, reporter, **how)
         outputs.finish(summary)
         reporter.summary(summary)
 

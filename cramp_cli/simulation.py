@@ -6,9 +6,10 @@ from time import perf_counter
 
 import numpy as np
 
-from cramp_cli.cracks.fields import find_rows, make_scratch
+from cramp_cli.cracks.fields import find_rows, list_cracks
 from cramp_cli.cracks.tips import sample_tips
 from cramp_cli.output.summary import Summary
+from cramp_cli.scratch import make_scratch
 from cramp_cli.state.failure import NumericalFailure
 from cramp_cli.state.health import check_health
 from cramp_cli.state.measures import FIELDS, momentum, sum_energies
@@ -117,15 +118,15 @@ class Books:
         return f"{known}.\nUse flip, a ramp instead of a step, or a finer grid"
 
 
-def simulate(deck, model, state, outputs, reporter, *, profile=False) -> Summary:
+def simulate(deck, model, state, outputs, reporter, *, threads=1, profile=False) -> Summary:
     """Run a model to its end and write what the deck asks for.
 
-    outputs: where rows and frames go; reporter: who is told how it goes
+    outputs: where rows and frames go; reporter: who is told how it goes; threads: to share work
     returns: the outcome in a few numbers
     """
     begin, first = perf_counter(), 0.0  # the first step may compile: no measure of the others
     reporter.start(model.end_time, deck.title or "run", _facts(model, state))
-    run = _Run(deck, model, state, outputs, reporter)
+    run = _Run(deck, model, state, outputs, reporter, threads)
     run.after_step()
     while state.time < model.end_time - 1e-9 * model.dt:
         step(model, state, run.scratch, run.watch)
@@ -143,16 +144,17 @@ def simulate(deck, model, state, outputs, reporter, *, profile=False) -> Summary
 class _Run:
     """What is due after a step."""
 
-    def __init__(self, deck, model, state, outputs, reporter):
+    def __init__(self, deck, model, state, outputs, reporter, threads):
         self.deck, self.model, self.state = deck, model, state
         self.outputs, self.reporter = outputs, reporter
-        self.scratch, self.watch = make_scratch(model, state), Stopwatch()
+        self.scratch, self.watch = make_scratch(model, state, threads), Stopwatch()
         self.books, self.begun_at = Books(state, deck.solver), state.step
         self.history_due = Due(deck.output.history_every, model.dt)
         self.tips_due = Due(deck.fracture.every, model.dt)
         self.frame_due = Due(deck.output.every, model.dt)
         self.tips, self.written = [], set()
         self.told = set()
+        list_cracks(model, state, self.scratch)
         locate_particles(model, state, self.scratch)
         find_rows(model, state, self.scratch)
 

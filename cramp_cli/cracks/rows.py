@@ -13,27 +13,30 @@ from cramp_cli.cracks.crossing import ON_CRACK, crossed_cracks, off_crack
 from cramp_cli.cracks.tip_nodes import cut_share
 from cramp_cli.numerics.kernel import kernel
 from cramp_cli.shapes.shape import node_steps, offsets
+from cramp_cli.state.stencil import AROUND, CLOSE, FAR
 
 
 @kernel
-def find_particles_near_cracks(stencil, segments, strides, listed_capacity):
+def list_particles_near_cracks(stencil, bands, report, listed_capacity):
     """List the particles that must test for cracks, and those that may see nodes with several rows.
 
+    bands: (blocks, bands + 1) first particle of each band; report: (blocks, bands, 3) of `locate`
     returns: number of particles to list, larger than `listed_capacity` if the table is too short
     """
-    base, local, near = stencil.base, stencil.local, stencil.near
-    listed, around = stencil.listed, stencil.around
-    head, zone = segments.head, segments.zone
+    near, listed, around = stencil.near, stencil.listed, stencil.around
     n_listed, n_around = 0, 0
-    for p in range(len(base)):
-        near[p] = -1
-        cell = base[p]
-        for d in range(len(strides)):
-            cell += int(np.floor(local[p, d])) * strides[d]
-        if zone[cell]:
-            around[n_around] = p
-            n_around += 1
-            if head[cell] >= 0:
+    for block in range(len(bands)):
+        for band in range(bands.shape[1] - 1):
+            if report[block, band, 2] == 0:
+                continue
+            for p in range(bands[block, band], bands[block, band + 1]):
+                if near[p] == FAR:
+                    continue
+                around[n_around] = p
+                n_around += 1
+                if near[p] == AROUND:
+                    continue
+                near[p] = CLOSE
                 if n_listed < listed_capacity:
                     near[p] = n_listed
                     listed[n_listed] = p

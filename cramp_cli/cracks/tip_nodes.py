@@ -96,10 +96,10 @@ def cut_share(paths, tip, x, y, half, width, centre, ramp):
 
 
 @kernel
-def cut_along_cracks(paths, smooth, width, centre, ramp):
-    """Return the cut share at all points of all cracks: 1 but beside smooth tips, (points,)."""
+def cut_along_cracks(cut, paths, smooth, width, centre, ramp):
+    """Set the cut share (points,) of all points of all cracks: 1 but beside smooth tips."""
     point, start = paths.point, paths.start
-    cut = np.ones(len(point))
+    cut[:] = 1.0
     for tip in range(2 * (len(start) - 1)):
         c, end = tip // 2, tip % 2
         if paths.ends[c, end] != TIP or not smooth[c]:
@@ -112,7 +112,6 @@ def cut_along_cracks(paths, smooth, width, centre, ramp):
                 dx, dy = point[k + step, 0] - point[k, 0], point[k + step, 1] - point[k, 1]
                 behind += sqrt(dx * dx + dy * dy)
             k += step
-    return cut
 
 
 @kernel
