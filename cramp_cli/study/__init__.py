@@ -1,1 +1,1 @@
-"""What is done with runs: times, pictures, sweeps, comparisons."""
+"""What is done beside a run: pictures, reports, and many runs from one deck."""

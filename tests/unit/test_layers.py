@@ -23,6 +23,7 @@ LAYERS = (
     ("warm",),
     ("simulation", "warm"),
     ("commands", "streams"),
+    ("cli_sweep",),
     ("cli",),
     ("__main__",),
 )
