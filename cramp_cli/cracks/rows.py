@@ -9,7 +9,7 @@ rest to the row that both sides share.
 
 import numpy as np
 
-from cramp_cli.cracks.crossing import ON_CRACK, crossed_cracks, off_crack
+from cramp_cli.cracks.crossing import HAIR, ON_CRACK, crossed_cracks, double_area, off_crack
 from cramp_cli.cracks.tip_nodes import cut_share
 from cramp_cli.numerics.kernel import inlined_kernel, kernel
 from cramp_cli.shapes.shape import node_steps, offsets
@@ -237,6 +237,27 @@ def give_shares(stencil, rows, ends, line, k, node, crossed, cut, gx, gy):
         add_entry(stencil, line, k, row, cut, gx, gy)
 
 
+@inlined_kernel
+def box_is_cut(segments, cell, x, y, x0, y0, x1, y1, tolerance):
+    """Return whether a crack may pass between a point and the corners of a box, or touch one."""
+    ends, entry = segments.ends, segments.head[cell]
+    while entry >= 0:
+        s = segments.item[entry]
+        ax, ay, bx, by = ends[s, 0], ends[s, 1], ends[s, 2], ends[s, 3]
+        limit = 2.0 * HAIR / ON_CRACK * tolerance * (abs(bx - ax) + abs(by - ay))
+        areas = (
+            double_area(ax, ay, bx, by, x, y),
+            double_area(ax, ay, bx, by, x0, y0),
+            double_area(ax, ay, bx, by, x1, y0),
+            double_area(ax, ay, bx, by, x0, y1),
+            double_area(ax, ay, bx, by, x1, y1),
+        )
+        if min(areas) <= limit and max(areas) >= -limit:
+            return True
+        entry = segments.next[entry]
+    return False
+
+
 @kernel
 def assign_rows(
     stencil,
@@ -252,33 +273,47 @@ def assign_rows(
     centre,
     ramp,
 ):
-    """List the rows of all particles near cracks; rows too many are counted, not made."""
+    """List the rows of all particles near cracks; rows too many are counted, not made.
+
+    A particle that sees all its nodes across no crack leaves the list: its rows are its nodes.
+    """
     listed, base, local = stencil.listed, stencil.base, stencil.local
     steps = offsets(strides, shape)
-    side = len(node_steps(shape, 1))
-    for line in range(stencil.count[0]):
-        p = listed[line]
-        stencil.entries[line] = 0
-        cell = base[p]
+    side, tolerance = len(node_steps(shape, 1)), ON_CRACK * width
+    line = 0
+    for candidate in range(stencil.count[0]):
+        p = listed[candidate]
+        cell, beside_tip = base[p], False
         for d in range(len(strides)):
             cell += int(np.floor(local[p, d])) * strides[d]
-        x = off_crack(segments, cell, position[p, 0], position[p, 1], ON_CRACK * width)
+        for k in range(len(steps)):
+            beside_tip = beside_tip or rows.tip[base[p] + steps[k]] >= 0
         corner = (base[p] % nodes_along[0], base[p] // strides[1])
+        x0, y0 = lower[0] + width * corner[0], lower[1] + width * corner[1]
+        x1, y1 = x0 + width * (side - 1), y0 + width * (side - 1)
+        x, y = position[p, 0], position[p, 1]
+        if not beside_tip and not box_is_cut(segments, cell, x, y, x0, y0, x1, y1, tolerance):
+            stencil.near[p] = AROUND
+            continue
+        listed[line], stencil.near[p], stencil.entries[line] = p, line, 0
+        x, y = off_crack(segments, cell, x, y, tolerance)
         known, cut, gx, gy = -1, 1.0, 0.0, 0.0
         for k in range(len(steps)):
             nx = lower[0] + width * (corner[0] + k % side)
             ny = lower[1] + width * (corner[1] + k // side)
             node = base[p] + steps[k]
-            nx, ny = off_crack(segments, cell, nx, ny, ON_CRACK * width)
-            crossed = crossed_cracks(segments, cell, x[0], x[1], nx, ny, ON_CRACK * width)
+            nx, ny = off_crack(segments, cell, nx, ny, tolerance)
+            crossed = crossed_cracks(segments, cell, x, y, nx, ny, tolerance)
             tip = rows.tip[node]
             if tip < 0:
                 give_row(stencil, rows, segments.ends, line, k, node, crossed)
                 continue
             if tip != known:
                 known = tip
-                cut, gx, gy = cut_share(paths, tip, x[0], x[1], shape.half, width, centre, ramp)
+                cut, gx, gy = cut_share(paths, tip, x, y, shape.half, width, centre, ramp)
             give_shares(stencil, rows, segments.ends, line, k, node, crossed, cut, gx, gy)
+        line += 1
+    stencil.count[0] = line
 
 
 @kernel
