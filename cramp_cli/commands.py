@@ -3,7 +3,10 @@
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from time import monotonic
 from typing import NamedTuple
+
+import typer
 
 from cramp_cli.output.machine import choose_threads, human_bytes, refuse_too_big
 from cramp_cli.output.tables import facts_text
@@ -26,40 +29,76 @@ class RunOptions(NamedTuple):
     max_disk: int | None = None  # bytes
     profile: bool = False
     verbosity: int = 1
+    resume: str = "never"  # or auto, must
+    max_wall: float | None = None  # s
+    checkpoint_every: tuple[int | None, float | None] = (None, 600.0)  # steps, seconds
 
 
 def run_deck(path: Path, options: RunOptions) -> Path | None:
     """Read, check, estimate, build and simulate a deck; return the folder of the results."""
-    threads = choose_threads(options.threads)
+    begun, threads = monotonic(), choose_threads(options.threads)
+    if options.overwrite and options.resume != "never":
+        raise typer.BadParameter("--overwrite begins anew, --resume goes on: give one of them")
     folder = options.output or Path(f"{path.stem}.run")
     deck = load_deck(path, options.overrides, options.strict)
     from cramp_cli.build import build, estimate  # late: imports numba
+    from cramp_cli.deck.deck import to_yaml
     from cramp_cli.output.folder import RunFolder
+    from cramp_cli.output.resume import find_start, is_finished
+    from cramp_cli.output.stop import Signs
 
     needs = estimate(deck)
     refuse_too_big(needs, folder, options.max_memory, options.max_disk)
     if options.dry_run:
         say(facts_text(f"{path}: nothing wrong; a run would take", readable(needs)))
         return None
-    with RunFolder(folder, options.overwrite) as claimed:
+    again = options.overwrite or options.resume != "never"
+    with RunFolder(folder, again) as claimed, Signs(folder, options.max_wall, begun) as signs:
+        resolved = to_yaml(deck.resolved())
+        if options.resume != "never" and is_finished(folder, resolved):
+            say(f"{folder}: is done already; nothing is left to do")
+            return folder
         model, state = build(deck)
-        _simulate(deck, model, state, claimed, threads, options)
+        start = find_start(folder, options.resume, resolved, state)
+        _simulate(deck, model, start, claimed, threads, signs, options)
     return folder
 
 
-def _simulate(deck, model, state, folder, threads: int, options: RunOptions) -> None:
+def resume_folder(folder: Path, options: RunOptions) -> Path:
+    """Go on with the run in a folder, by the deck that it keeps there; return the folder."""
+    from cramp_cli.output.folder import refuse_no_run
+
+    refuse_no_run(folder)
+    options = options._replace(output=folder, resume="must")
+    return run_deck(folder / "resolved.yaml", options)
+
+
+def _simulate(deck, model, start, folder, threads, signs, options) -> None:
     from cramp_cli.deck.deck import to_yaml
+    from cramp_cli.output.keeper import Keeper
     from cramp_cli.output.log import Reporter
     from cramp_cli.output.run import RunOutputs
     from cramp_cli.simulation import simulate
 
-    texts = deck.source_text, to_yaml(deck.resolved())
-    with RunOutputs(folder, *texts, end_time=deck.solver.end_time, threads=threads) as outputs:
+    texts, end = (deck.source_text, to_yaml(deck.resolved())), deck.solver.end_time
+    with RunOutputs(folder, *texts, end_time=end, threads=threads, places=start.places) as outputs:
         reporter = Reporter(outputs.log, options.progress, options.verbosity)
         for warning in deck.warnings:
             outputs.log.write("warning", str(warning))
+        keeper = Keeper(outputs, signs, options.checkpoint_every, texts[1])
         with reporter:
-            summary = simulate(deck, model, state, outputs, reporter, profile=options.profile)
+            for level, text in start.remarks:
+                reporter.message(level, text)
+            summary = simulate(
+                deck,
+                model,
+                start.state,
+                outputs,
+                reporter,
+                profile=options.profile,
+                keeper=keeper,
+                remembered=start.remembered,
+            )
         outputs.finish(summary)
         reporter.summary(summary)
 

@@ -31,23 +31,21 @@ class Frame(NamedTuple):
 class FrameWriter:
     """Writes `kind`.h5 and `kind`.xdmf in a folder, one frame after the other.
 
-    resume_at: keep the frames of older files up to this step and go on after them
     real: type of the floating point numbers on disk
+    keep: go on after so many frames of the files that are there, forget those behind them
     """
 
-    def __init__(
-        self, folder: Path, kind: str, real: str = "f4", resume_at: int | None = None
-    ) -> None:
+    def __init__(self, folder: Path, kind: str, real: str = "f4", keep: int | None = None) -> None:
         self.data = Path(folder) / f"{kind}.h5"
         self.index = Path(folder) / f"{kind}.xdmf"
         self.kind, self.real = kind, real
         self._grids: list[str] = []
-        self._count = 0
-        if resume_at is None:
+        self.count = 0  # frames so far
+        if keep is None:
             self.data.unlink(missing_ok=True)
             self.index.unlink(missing_ok=True)
-        elif self.data.exists():
-            self._take_up(resume_at)
+        else:
+            self._take_up(keep)
 
     def write(
         self,
@@ -65,7 +63,7 @@ class FrameWriter:
         """
         frame = _tidy(Frame(step, time, points, fields, lines), self.real)
         with _open(self.data, "a") as file:
-            name = f"frame_{self._count:06d}"
+            name = f"frame_{self.count:06d}"
             if name in file:  # left by a write that did not come to its end
                 del file[name]
             _store(file.create_group(name), frame)
@@ -73,17 +71,23 @@ class FrameWriter:
         write_text(self.index, collection(self.kind, self._grids))
 
     def _add(self, name: str, frame: Frame) -> None:
-        self._count += 1
+        self.count += 1
         if len(frame.points):  # VTK has no grid without points
             self._grids.append(grid(f"{self.data.name}:/{name}", frame))
 
-    def _take_up(self, step: int) -> None:
-        with _open(self.data, "a") as file:
-            for name in sorted(file):
-                if "time" in file[name].attrs and file[name].attrs["step"] <= step:
-                    self._add(name, _load(file[name]))
-                else:
-                    del file[name]
+    def _take_up(self, keep: int) -> None:
+        with _open_whole(self.data, "a") as file:
+            names = sorted(file)
+            whole = sum("time" in file[name].attrs for name in names[:keep])
+            if whole < keep:
+                raise FolderError(
+                    f"{self.data}: holds {whole} frames, the checkpoint knows of {keep}; the file "
+                    "was changed, start the run anew with --overwrite"
+                )
+            for name in names[:keep]:
+                self._add(name, _load(file[name], read=lambda data: data))
+            for name in names[keep:]:
+                del file[name]
         write_text(self.index, collection(self.kind, self._grids))
 
 
@@ -92,11 +96,7 @@ def read_frames(path: str | Path) -> Iterator[Frame]:
     data = Path(path).with_suffix(".h5")
     if not data.exists():
         raise FolderError(f"{data}: no such file")
-    try:
-        file = _open(data, "r")
-    except OSError as error:
-        raise FolderError(f"{data}: cannot be read as HDF5 ({error})") from None
-    with file:
+    with _open_whole(data, "r") as file:
         for name in sorted(file):
             if "time" in file[name].attrs:
                 yield _load(file[name])
@@ -124,6 +124,14 @@ def _open(path: Path, mode: str):
     return h5py.File(path, mode, libver=("earliest", "v110"), locking=False)
 
 
+def _open_whole(path: Path, mode: str):
+    """Open a file that must be there; FolderError if it is none of HDF5."""
+    try:
+        return _open(path, mode if path.exists() else "r")
+    except OSError as error:
+        raise FolderError(f"{path}: cannot be read as HDF5 ({error})") from None
+
+
 def _store(group, frame: Frame) -> None:
     _dataset(group, "points", frame.points)
     if frame.offsets is None:
@@ -141,11 +149,13 @@ def _dataset(group, name: str, values: np.ndarray) -> None:
     group.create_dataset(name, data=values, **(PACKED if values.size else {}))
 
 
-def _load(group) -> Frame:
-    fields = {name: data[()] for name, data in group["fields"].items()} if "fields" in group else {}
-    offsets = group["offsets"][()] if "offsets" in group else None
+def _load(group, read=lambda data: data[()]) -> Frame:
+    """Return a frame of a file; `read` makes an array of a dataset, or leaves it on disk."""
+    stored = group.get("fields", {})
+    fields = {name: read(data) for name, data in stored.items()}
+    offsets = read(group["offsets"]) if "offsets" in group else None
     step, time = int(group.attrs["step"]), float(group.attrs["time"])
-    return Frame(step, time, group["points"][()], fields, offsets)
+    return Frame(step, time, read(group["points"]), fields, offsets)
 
 
 def polylines(offsets: np.ndarray) -> np.ndarray:
@@ -159,7 +169,8 @@ def _tidy(frame: Frame, real: str) -> Frame:
     offsets = None if frame.offsets is None else np.asarray(frame.offsets, dtype="i4")
     counts = {len(frame.points)} | (set() if offsets is None else {len(offsets) - 1})
     points = _components("points", frame.points, counts, real)
-    fields = {name: _components(name, v, counts, real) for name, v in frame.fields.items()}
+    names = sorted(frame.fields)  # the order in which HDF5 gives them back to a run that goes on
+    fields = {name: _components(name, frame.fields[name], counts, real) for name in names}
     return Frame(int(frame.step), float(frame.time), points.reshape(-1, 3), fields, offsets)
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from cramp_cli.output.exits import FolderError
 from cramp_cli.output.fields import count_frames
-from cramp_cli.output.folder import is_run_folder
+from cramp_cli.output.folder import refuse_no_run
 from cramp_cli.output.tables import duration
 
 WORDS = ("crack", "tip", "status")
@@ -14,9 +14,7 @@ WORDS = ("crack", "tip", "status")
 
 def describe(run: Path) -> dict:
     """Return manifest, status and number of frames of a run."""
-    if not is_run_folder(run):
-        reason = "not the folder of a run of cramp" if run.exists() else "no such folder"
-        raise FolderError(f"{run}: {reason}")
+    refuse_no_run(run)
     frames = {kind: count_frames(run / f"{kind}.h5") for kind in ("particles", "cracks")}
     status = _read(run / "status.json")
     manifest = _read(run / "manifest.json")

@@ -61,7 +61,7 @@ def solver(monkeypatch):
         stub.built += 1
         return "model", "state"
 
-    def simulate(deck, model, state, outputs, reporter, profile=False):
+    def simulate(deck, model, state, outputs, reporter, **more):
         reporter.start(deck.solver.end_time, deck.title, {"particles": 3})
         outputs.history({"step": 1, "time": 1e-6, "energy_error": 0.0})
         outputs.tips([{"step": 1, "time": 1e-6, **TIP, "status": "ok"}])

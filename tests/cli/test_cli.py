@@ -2,7 +2,6 @@
 
 import json
 import os
-import signal
 import subprocess
 import sys
 import time
@@ -11,7 +10,6 @@ import pytest
 import yaml
 
 import cramp_cli
-from cramp_cli.output.fields import read_frames
 from cramp_cli.state.failure import NumericalFailure
 
 WRONG = "cramp: 1\nanalysis: plane_strian\nsolver: {end_time: 1 kg}\n"
@@ -35,13 +33,13 @@ def test_version(cramp):
 def test_help_names_every_command(cramp):
     code, out, _ = cramp("--help")
     assert code == 0
-    for name in ("run", "check", "show", "schema", "info", "export", "doctor"):
+    for name in ("run", "resume", "check", "show", "schema", "info", "export", "doctor"):
         assert f"\n  {name} " in out
     assert "..." not in out.split("Commands:")[1]  # all summaries fit
 
 
 @pytest.mark.parametrize(
-    "name", ["run", "check", "show", "schema", "info", "export", "doctor", "--version"]
+    "name", ["run", "resume", "check", "show", "schema", "info", "export", "doctor", "--version"]
 )
 def test_every_command_has_help_of_80_columns(cramp, name):
     code, out, _ = cramp(name, "--help")
@@ -80,6 +78,10 @@ def _seconds(line):
         ["run", "plate.yaml", "-t", "0"],
         ["run", "plate.yaml", "--progress", "loud"],
         ["export", "x", "--format", "docx"],
+        ["run", "plate.yaml", "--max-wall", "soon"],
+        ["run", "plate.yaml", "--overwrite", "--resume", "auto"],
+        ["run", "plate.yaml", "--checkpoint-every", "0"],
+        ["run", "plate.yaml", "--resume", "perhaps"],
         [],
     ],
 )
@@ -305,7 +307,7 @@ def test_export_prints_what_to_open(cramp, solver, here):
     assert (here / "tables/particles_000000.csv").exists()
 
 
-@pytest.mark.parametrize("command", ["info", "export"])
+@pytest.mark.parametrize("command", ["info", "export", "resume"])
 def test_what_is_no_run_is_named(cramp, here, command):
     for path in ("nowhere", here):
         code, _, err = cramp(command, path)
@@ -352,20 +354,3 @@ def test_two_runs_in_one_folder(here):
         first.kill()
     assert second.returncode == 4
     assert f"in use by process {first.pid} on" in second.stderr
-
-
-def test_an_interrupted_run_can_be_read(here):
-    words = [sys.executable, "-m", "cramp_cli", "-q", "run", "plate.yaml", "-s"]
-    with subprocess.Popen([*words, "solver.end_time=1"], stderr=subprocess.PIPE) as run:
-        deadline = time.monotonic() + 400.0
-        while not (here / "plate.run/cracks.xdmf").exists() and run.poll() is None:
-            assert time.monotonic() < deadline
-            time.sleep(0.05)
-        run.send_signal(signal.SIGINT)
-        _, err = run.communicate(timeout=300)
-    assert run.returncode == 130
-    assert err.decode() == "cramp: interrupted (see plate.run/run.log)\n"
-    manifest = json.loads((here / "plate.run/manifest.json").read_text())
-    assert (manifest["status"], manifest["exit_code"]) == ("interrupted", 130)
-    assert "interrupted" in shell("cramp info plate.run").stdout
-    assert len(list(read_frames(here / "plate.run/particles.xdmf"))) >= 1
