@@ -5,30 +5,11 @@ from types import ModuleType, SimpleNamespace
 
 import numpy as np
 import pytest
+from plate import PLATE
 
 from cramp_cli.__main__ import main
 from cramp_cli.output.summary import Summary
 
-PLATE = """\
-cramp: 1
-title: Plate with an edge crack, pulled
-analysis: plane_strain
-grid: {lower: [-10 mm, -30 mm], upper: [50 mm, 30 mm], cell: 2 mm}
-materials:
-  glass: {law: elastic, density: 2500 kg/m^3, E: 70 GPa, nu: 0.2}
-bodies:
-  - name: plate
-    material: glass
-    shape: {type: rectangle, lower: [0, -20 mm], upper: [40 mm, 20 mm]}
-cracks:
-  - {name: notch, points: [[0, 0], [15.3 mm, 0]], start: edge, end: tip}
-boundary:
-  - {name: grip, where: {y: -20 mm}, fix: [y]}
-loads:
-  - {type: force, body: plate, where: {y: 20 mm}, total: [0, 10 kN], in_time: step}
-solver: {end_time: 20 us}
-output: {every: 5 us, fields: [stress, displacement]}
-"""
 TIP = {"crack": "notch", "tip": "end", "x": 0.0153, "y": 0.0, "J": 1.5, "K_I": 3e5, "K_II": 0.0}
 
 

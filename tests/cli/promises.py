@@ -16,8 +16,7 @@ from cramp_cli.output.exits import Stopped
 from cramp_cli.output.stop import Signs
 
 STEPS = 112  # of the plate, in 20 us
-TEXTS = ("history.csv", "cracks.csv", "columns.json", "input.yaml", "resolved.yaml")
-INDEXES = ("particles.xdmf", "cracks.xdmf")
+DATED = {"manifest.json", "status.json", "run.log", ".lock"}  # these name times and hosts
 PATIENCE = 400.0  # s; kernels may have to be compiled, on a busy machine
 
 
@@ -42,9 +41,15 @@ def run_in_pieces(deck, folder, stops=(), **options):
 
 def differences(one: Path, other: Path) -> list[str]:
     """Return the files of two runs that are not the same; those with the date and host aside."""
-    found = [n for n in TEXTS + INDEXES if (one / n).read_bytes() != (other / n).read_bytes()]
-    for name in ("particles.h5", "cracks.h5"):
-        found += [f"{name}:{place}" for place in unequal_data(one / name, other / name)]
+    files = [
+        {path.name for path in run.glob("*.*") if path.name not in DATED} for run in (one, other)
+    ]
+    found = sorted(files[0] ^ files[1])
+    for name in files[0] & files[1]:
+        if name.endswith(".h5"):
+            found += [f"{name}:{place}" for place in unequal_data(one / name, other / name)]
+        elif (one / name).read_bytes() != (other / name).read_bytes():
+            found.append(name)
     newest = [checkpoints(run)[:1] for run in (one, other)]
     if all(newest):
         found += [f"state:{place}" for place in unequal_data(newest[0][0], newest[1][0], "state")]

@@ -7,13 +7,20 @@ import json
 import signal
 
 import pytest
+from plate import PLATE
 from promises import STEPS, begin, cramp, differences, run_in_pieces, wait_for
+from runs import INPUTS
+from support import build_deck, read
 
+from cramp_cli.build.model import time_step
+from cramp_cli.deck.deck import read_deck
 from cramp_cli.output.checkpoint import checkpoints
 from cramp_cli.output.exits import FolderError
 from cramp_cli.output.fields import read_frames
 from cramp_cli.output.stop import Signs
+from cramp_cli.simulation import DUES, Books, _Run
 
+DECKS = sorted(path for path in INPUTS.glob("*.yaml") if not path.name.endswith(".expect.yaml"))
 LONG = ("-s", "solver.end_time=1")  # s: nobody waits for its end
 
 
@@ -33,6 +40,39 @@ def test_1_a_run_in_pieces_is_the_same_to_the_byte(here, stops):
     assert manifest(pieces)["status"] == "done"
     assert [part["step"] for part in manifest(pieces)["parts"]] == [0, *stops]
     assert differences(whole, pieces) == []
+
+
+@pytest.mark.parametrize("deck", DECKS, ids=lambda deck: deck.stem)
+def test_1_every_deck_of_inputs_can_be_run_in_pieces(tmp_path, deck):
+    """Sixty steps each: symmetry planes, friction, several cracks, growth if there is any."""
+    dt = time_step(read_deck(deck))
+    settings = {"solver.end_time": 60, "output.every": 20, "output.history_every": 7}
+    settings |= {"fracture.every": 10}
+    options = {"overrides": [f"{key}={steps * dt!r}" for key, steps in settings.items()]}
+    options["checkpoint_every"] = 60, None
+    whole = run_in_pieces(deck, tmp_path / "whole", **options)
+    pieces = run_in_pieces(deck, tmp_path / "pieces", (13, 40), **options)
+    assert differences(whole, pieces) == []
+
+
+@pytest.mark.parametrize("update", ["fmpm(2)", "xpic(2)"])
+def test_1_every_update_can_be_run_in_pieces(here, update):
+    options = {"overrides": [f"solver.update={update}"]}
+    whole = run_in_pieces(here / "plate.yaml", here / "whole", **options)
+    pieces = run_in_pieces(here / "plate.yaml", here / "pieces", (50,), **options)
+    assert differences(whole, pieces) == []
+
+
+def test_1_all_that_the_loop_over_time_holds_is_kept_or_follows_from_the_state():
+    """A new attribute of the loop belongs into `remember`, or into the list here."""
+    model, state, _ = build_deck(PLATE)
+    run = _Run(read(PLATE), model, state, None, None, None)
+    follows = {"deck", "model", "state", "outputs", "reporter", "keeper", "scratch", "watch"}
+    follows |= {"begun_at"}
+    kept = set(run.remember())
+    assert set(vars(run)) - follows - {*DUES} == kept - {"due"}
+    assert set(vars(run.books)) - {"limits", "update"} == {*Books.REMEMBERED}
+    assert set(vars(run.history_due)) == {"every", "slack", "count"}
 
 
 def test_1_the_number_of_threads_does_not_matter(here):
