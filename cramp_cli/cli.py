@@ -312,6 +312,44 @@ def export(
 
 
 @app.command()
+def diff(
+    reference: Annotated[Path, typer.Argument(help="Folder of a run, or a CSV or HDF5 file.")],
+    new: Annotated[Path, typer.Argument(help="What is compared with it.")],
+    rtol: Annotated[
+        float, typer.Option(min=0.0, help="Share of the reference that may be off.")
+    ] = 5.5e-6,
+    atol: Annotated[
+        float | None,
+        typer.Option(min=0.0, help="What may be off besides [1e-10 of the largest in the column]."),
+    ] = None,
+    column: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME:RTOL[:ATOL]",
+            help="Other limits for one column; may be given often. RTOL inf: any value will do.",
+        ),
+    ] = None,
+    interpolate: Annotated[
+        bool,
+        typer.Option("--interpolate", help="Compare tables at the times of the reference."),
+    ] = False,
+    as_json: Json = False,
+):
+    """Compare two results; tell what differs, where and how far.
+
+    Exit code 1 if something differs.
+    """
+    from cramp_cli.commands import compare_results
+    from cramp_cli.output.atomic import plain
+    from cramp_cli.output.exits import DIFFERENT
+
+    report = compare_results(reference, new, rtol, atol, column or [], interpolate)
+    print(json.dumps(plain(report.as_json()), indent=2) if as_json else report)
+    if not report.alike:
+        raise typer.Exit(DIFFERENT)
+
+
+@app.command()
 def doctor(
     warmup: Annotated[bool, typer.Option("--warmup", help="Compile all kernels now.")] = False,
 ):

@@ -152,6 +152,35 @@ def say_check(answer: dict) -> None:
         print(facts_text(verdict, readable(answer.get("report", {}))))
 
 
+def compare_results(
+    reference: Path,
+    new: Path,
+    rtol: float,
+    atol: float | None,
+    columns: Sequence[str],
+    interpolate: bool,
+):
+    """Return how two results differ; `columns` are texts such as K_I:1e-3 or K_I:1e-3:10."""
+    from cramp_cli.study.compare import compare
+
+    others = dict(map(_tolerance, columns))
+    return compare(reference, new, rtol=rtol, atol=atol, columns=others, interpolate=interpolate)
+
+
+def _tolerance(text: str):
+    from cramp_cli.study.compare import Tolerance
+
+    name, *limits = text.split(":")
+    try:
+        tolerance = Tolerance(*map(float, limits))
+        if not limits or not all(limit >= 0.0 for limit in map(float, limits)):
+            raise ValueError
+    except (TypeError, ValueError):
+        message = f"'{text}' is no limit; write it like 'K_I:1e-3' or 'K_I:1e-3:10'"
+        raise typer.BadParameter(message) from None
+    return name, tolerance
+
+
 def warm_up() -> str:
     """Compile all kernels; return how long it took."""
     from time import perf_counter

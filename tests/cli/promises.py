@@ -41,9 +41,7 @@ def run_in_pieces(deck, folder, stops=(), **options):
 
 def differences(one: Path, other: Path) -> list[str]:
     """Return the files of two runs that are not the same; those with the date and host aside."""
-    files = [
-        {path.name for path in run.glob("*.*") if path.name not in DATED} for run in (one, other)
-    ]
+    files = [{path.name for path in run.glob("*.*")} - DATED for run in (one, other)]
     found = sorted(files[0] ^ files[1])
     for name in files[0] & files[1]:
         if name.endswith(".h5"):

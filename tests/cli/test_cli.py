@@ -33,13 +33,14 @@ def test_version(cramp):
 def test_help_names_every_command(cramp):
     code, out, _ = cramp("--help")
     assert code == 0
-    for name in ("run", "resume", "check", "show", "schema", "info", "export", "doctor"):
+    for name in ("run", "resume", "check", "show", "schema", "info", "export", "diff", "doctor"):
         assert f"\n  {name} " in out
     assert "..." not in out.split("Commands:")[1]  # all summaries fit
 
 
 @pytest.mark.parametrize(
-    "name", ["run", "resume", "check", "show", "schema", "info", "export", "doctor", "--version"]
+    "name",
+    ["run", "resume", "check", "show", "info", "schema", "export", "diff", "doctor", "--version"],
 )
 def test_every_command_has_help_of_80_columns(cramp, name):
     code, out, _ = cramp(name, "--help")
