@@ -41,8 +41,11 @@ def run_deck(path: Path, options: RunOptions) -> Path | None:
         raise typer.BadParameter("--overwrite begins anew, --resume goes on: give one of them")
     folder = options.output or Path(f"{path.stem}.run")
     deck = load_deck(path, options.overrides, options.strict)
-    from cramp_cli.build import build, estimate  # late: imports numba
     from cramp_cli.deck.deck import to_yaml
+    from cramp_cli.deck.size import size_of
+
+    refuse_too_big(size_of(deck)._asdict(), folder, options.max_memory, options.max_disk)
+    from cramp_cli.build import build, estimate  # late: imports numba
     from cramp_cli.output.folder import RunFolder
     from cramp_cli.output.resume import find_start, is_finished
     from cramp_cli.output.stop import Signs

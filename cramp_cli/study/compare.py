@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from cramp_cli.study.results import Results, at_times_of, files_of, read_results
+from cramp_cli.study.columns import Columns, at_times_of, files_of, read_columns
 
 RTOL = 5.5e-6
 FLOOR = 1e-10  # share of the largest number of a column that counts as nothing
@@ -100,7 +100,7 @@ def compare(
             which = new if name in ours else reference
             report.differences.append(Difference(name, "", f"is missing in {which}"))
             continue
-        pair = read_results(ours[name]), read_results(theirs[name])
+        pair = read_columns(ours[name]), read_columns(theirs[name])
         _compare_files(report, *pair, usual, columns or {}, interpolate)
     return report
 
@@ -112,7 +112,7 @@ def assert_alike(reference: str | Path, new: str | Path, **options) -> None:
         raise AssertionError(str(report))
 
 
-def _compare_files(report, reference: Results, new: Results, usual, columns, interpolate) -> None:
+def _compare_files(report, reference: Columns, new: Columns, usual, columns, interpolate) -> None:
     if interpolate and reference.is_table and "time" in reference.columns:
         new = at_times_of(reference, new)
     else:
@@ -124,7 +124,7 @@ def _compare_files(report, reference: Results, new: Results, usual, columns, int
         report.differences += _compare_column(reference, name, ours, theirs, tolerance)
 
 
-def _missing(reference: Results, new: Results) -> Iterator[Difference]:
+def _missing(reference: Columns, new: Columns) -> Iterator[Difference]:
     """Yield the rows, columns and groups that only one of two files has."""
     file = reference.name
     if reference.is_table and reference.rows != new.rows:
@@ -135,13 +135,13 @@ def _missing(reference: Results, new: Results) -> Iterator[Difference]:
             yield Difference(file, name, f"is missing in the {where}")
 
 
-def _part(results: Results, name: str) -> str:
+def _part(results: Columns, name: str) -> str:
     """Return what is named when it is missing: a column, or a whole group such as a frame."""
     return name if results.is_table else name.split("/")[0].split("@")[0]
 
 
 def _compare_column(
-    reference: Results, name: str, ours: np.ndarray, theirs: np.ndarray, tolerance: Tolerance
+    reference: Columns, name: str, ours: np.ndarray, theirs: np.ndarray, tolerance: Tolerance
 ) -> Iterator[Difference]:
     if ours.shape != theirs.shape and not reference.is_table:
         shapes = f"has {_shape(theirs)} values, the reference {_shape(ours)}"

@@ -1,4 +1,4 @@
-"""Results as columns: a CSV table by its names, an HDF5 file by the places of its data."""
+"""Columns as columns: a CSV table by its names, an HDF5 file by the places of its data."""
 
 import csv
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ HEAD_LINES = 1  # of a table
 
 
 @dataclass
-class Results:
+class Columns:
     """The numbers and texts of one file."""
 
     name: str
@@ -49,16 +49,16 @@ def files_of(path: Path) -> dict[str, Path]:
     return {path.name: path}
 
 
-def read_results(path: Path) -> Results:
+def read_columns(path: Path) -> Columns:
     """Return what a CSV or HDF5 file holds; FolderError when it is neither."""
     if path.suffix == ".csv":
-        return Results(path.name, _read_table(path), is_table=True)
+        return Columns(path.name, _read_table(path), is_table=True)
     if path.suffix in (".h5", ".hdf5"):
-        return Results(path.name, _read_data(path), is_table=False)
+        return Columns(path.name, _read_data(path), is_table=False)
     raise FolderError(f"{path}: is no .csv and no .h5 file")
 
 
-def at_times_of(reference: Results, new: Results) -> Results:
+def at_times_of(reference: Columns, new: Columns) -> Columns:
     """Return a table at the times of another, linearly between its own rows.
 
     Rows of different tips are kept apart. Where the new table does not reach, its values are nan.
@@ -77,10 +77,10 @@ def at_times_of(reference: Results, new: Results) -> Results:
         wanted, known = reference.columns["time"][mine], new.columns["time"][others]
         for name, values in columns.items():
             values[mine] = _between(wanted, known, new.columns[name][others])
-    return Results(new.name, columns, is_table=True)
+    return Columns(new.name, columns, is_table=True)
 
 
-def _keys(table: Results) -> list[str]:
+def _keys(table: Columns) -> list[str]:
     return [name for name in KEYS if name in table.columns]
 
 
@@ -92,7 +92,7 @@ def _between(wanted: np.ndarray, known: np.ndarray, values: np.ndarray) -> np.nd
     return np.where(inside, np.interp(wanted, known, values), np.nan)
 
 
-def _tips(reference: Results, new: Results):
+def _tips(reference: Columns, new: Columns):
     """Yield the rows of each tip in both tables, as masks; of a table without tips, all rows."""
     names = _keys(reference)
     rows = [list(zip(*(t.columns[n] for n in names), strict=True)) for t in (reference, new)]
