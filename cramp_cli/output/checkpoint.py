@@ -13,7 +13,8 @@ from typing import Any, NamedTuple
 
 from cramp_cli.output.atomic import replaced, sweep
 from cramp_cli.output.exits import FolderError
-from cramp_cli.output.packing import pack, unpack
+from cramp_cli.output.hdf5 import extended, opened
+from cramp_cli.output.packing import pack, size_of, unpack
 
 FOLDER = "checkpoints"
 KEPT = 2
@@ -47,12 +48,12 @@ def write_checkpoint(run: Path, state: Any, notes: dict) -> Path:
 
 def write_state(path: Path, state: Any, notes: dict) -> None:
     """Write a state and notes to a file with a checksum, whole or not at all."""
-    import h5py  # late: keeps `cramp --help` fast
-
+    text = json.dumps(notes, default=lambda number: number.tolist())
+    size, parts = size_of(state)
     with replaced(path, durable=True) as beside:
-        with h5py.File(beside, "w", userblock_size=HEAD) as file:
+        with extended(beside, "w", size + len(text), parts + 2, userblock_size=HEAD) as file:
             pack(file.create_group("state"), state)
-            file["notes"] = json.dumps(notes, default=lambda number: number.tolist())
+            file["notes"] = text
         head = MARK + _digest(beside).encode() + b"\n"
         with beside.open("r+b") as file:
             file.write(head.ljust(HEAD, b"\0"))
@@ -65,10 +66,8 @@ def read_state(path: Path, like: Any) -> Checkpoint:
     raises: Damaged when the file is not as it was written, PackingError when another version of the
     program wrote it
     """
-    import h5py
-
     _refuse_damaged(path)
-    with h5py.File(path, "r", locking=False) as file:
+    with opened(path) as file:
         notes = json.loads(file["notes"][()])
         return Checkpoint(unpack(file["state"], like), notes)
 

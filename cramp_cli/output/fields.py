@@ -13,8 +13,10 @@ import numpy as np
 
 from cramp_cli.output.atomic import write_text
 from cramp_cli.output.exits import FolderError
+from cramp_cli.output.hdf5 import extended, opened
 from cramp_cli.output.xdmf import collection, grid
 
+OLD = ("earliest", "v110")  # VTK reads no points of newer files
 PACKED = {"compression": "gzip", "compression_opts": 1, "shuffle": True}
 
 
@@ -62,7 +64,8 @@ class FrameWriter:
         lines: (n_lines + 1,) first point of every line; None if the points are particles
         """
         frame = _tidy(Frame(step, time, points, fields, lines), self.real)
-        with _open(self.data, "a") as file:
+        size, parts = _size(frame)
+        with extended(self.data, "a", size, parts, libver=OLD) as file:
             name = f"frame_{self.count:06d}"
             if name in file:  # left by a write that did not come to its end
                 del file[name]
@@ -106,7 +109,7 @@ def count_frames(path: str | Path) -> int:
     """Return how many complete frames a .h5 file holds; none if there is no file."""
     if not Path(path).exists():
         return 0
-    with _open(Path(path), "r") as file:
+    with opened(Path(path)) as file:
         return sum("time" in group.attrs for group in file.values())
 
 
@@ -117,19 +120,19 @@ def tensor_of_plane(values: np.ndarray) -> np.ndarray:
     return np.stack([xx, xy, zero, xy, yy, zero, zero, zero, zz], axis=1)
 
 
-def _open(path: Path, mode: str):
-    """Open without a lock of its own: whoever looks at the file must not stop the run."""
-    import h5py  # late: keeps `cramp --help` fast
-
-    return h5py.File(path, mode, libver=("earliest", "v110"), locking=False)
-
-
 def _open_whole(path: Path, mode: str):
     """Open a file that must be there; FolderError if it is none of HDF5."""
     try:
-        return _open(path, mode if path.exists() else "r")
+        return opened(path, mode if path.exists() else "r", libver=OLD)
     except OSError as error:
         raise FolderError(f"{path}: cannot be read as HDF5 ({error})") from None
+
+
+def _size(frame: Frame) -> tuple[int, int]:
+    """Return the bytes of a frame before compression, and how many data sets and groups it has."""
+    arrays = [frame.points, *frame.fields.values()]
+    lines = 0 if frame.offsets is None else frame.offsets.nbytes * 3
+    return sum(a.nbytes for a in arrays) + 12 * len(frame.points) + lines, len(arrays) + 4
 
 
 def _store(group, frame: Frame) -> None:

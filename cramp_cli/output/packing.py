@@ -57,6 +57,14 @@ def unpack(group, like: Any, place: str = "") -> Any:
     return type(like)(**found)
 
 
+def size_of(record: Any) -> tuple[int, int]:
+    """Return the bytes of all arrays of a record, and the number of its arrays and groups."""
+    if isinstance(record, np.ndarray):
+        return record.nbytes, 1
+    sizes = [size_of(part) for part in (parts_of(record) or {}).values()]
+    return sum(size for size, _ in sizes), 1 + sum(count for _, count in sizes)
+
+
 def parts_of(record: Any) -> dict[str, Any] | None:
     """Return the parts of a record or collection by name, None if it is neither."""
     if isinstance(record, dict):
