@@ -34,6 +34,18 @@ def cramp(here, capsys):
 
 
 @pytest.fixture
+def cramp_here(cramp, here):
+    """Check a deck given as bytes: exit code and what is said."""
+
+    def check(data):
+        (here / "deck.yaml").write_bytes(data)
+        code, out, err = cramp("check", "deck.yaml")
+        return code, out + err
+
+    return check
+
+
+@pytest.fixture
 def solver(monkeypatch):
     """A solver that takes no time; set `error` and it ends with that error."""
     stub = SimpleNamespace(error=None, built=0, needs={"memory_bytes": 1000, "disk_bytes": 1000})

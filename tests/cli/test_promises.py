@@ -3,22 +3,35 @@
 What takes longer is in test_soak.py.
 """
 
+import csv
 import json
+import os
+import re
+import resource
 import signal
+import subprocess
+import sys
 
+import numpy as np
 import pytest
+from fuzz import generated, mutated
 from plate import PLATE
 from promises import STEPS, begin, cramp, differences, run_in_pieces, wait_for
 from runs import INPUTS
 from support import build_deck, read
 
+from cramp_cli import simulation
+from cramp_cli.build import build
 from cramp_cli.build.model import time_step
 from cramp_cli.deck.deck import read_deck
-from cramp_cli.output.checkpoint import checkpoints
+from cramp_cli.numerics import cache
+from cramp_cli.output.checkpoint import checkpoints, read_state
 from cramp_cli.output.exits import FolderError
 from cramp_cli.output.fields import read_frames
 from cramp_cli.output.stop import Signs
 from cramp_cli.simulation import DUES, Books, _Run
+from cramp_cli.state.failure import NumericalFailure
+from cramp_cli.state.measures import FIELDS
 
 DECKS = sorted(path for path in INPUTS.glob("*.yaml") if not path.name.endswith(".expect.yaml"))
 LONG = ("-s", "solver.end_time=1")  # s: nobody waits for its end
@@ -189,3 +202,169 @@ def test_2_resume_needs_something_to_go_on_from(here):
     again = cramp("run", "plate.yaml", "--resume", "auto")
     assert (again.returncode, again.stdout) == (0, "plate.run\n")
     assert "is done already" in again.stderr
+
+
+# ------------------------------------------------------------------ 3 a solution that is none
+
+
+@pytest.mark.parametrize(
+    ("poison", "said"),
+    [
+        (lambda p: p.F.__setitem__((7, 0), -1.0), "7 of glass .* is turned inside out"),
+        (lambda p: p.stress.__setitem__((7, 1), np.nan), "has a (state|position) that is no num"),
+        (lambda p: p.velocity.__setitem__((7, 1), np.inf), "has a (state|position) that is no num"),
+    ],
+)
+def test_3_an_ill_particle_ends_the_run_with_a_dump(here, monkeypatch, poison, said):
+    """Within fifty steps; and no checkpoint ever holds it."""
+
+    def step(model, state, scratch, watch):
+        real_step(model, state, scratch, watch)
+        if state.step == 41:
+            poison(state.particles)
+
+    real_step = simulation.step
+    monkeypatch.setattr(simulation, "step", step)
+    with pytest.raises(NumericalFailure) as caught:
+        run_in_pieces(here / "plate.yaml", here / "r", checkpoint_every=(7, None))
+    text = str(caught.value)
+    assert 41 <= int(re.search(r"step (\d+)", text)[1]) <= 91
+    for part in (said, r"particle \d+ of glass at \(", r"at first at \(", r"time step \(lower"):
+        assert re.search(part, text), text
+    assert manifest(here / "r")["exit_code"] == 6
+    assert "failure" in caught.value.__notes__[0]
+    (dump,) = (here / "r/failure").glob("step_*.h5")
+    _, fresh = build(read_deck(here / "plate.yaml"))
+    ill = read_state(dump, fresh).state.particles
+    (frame,) = read_frames(here / "r/failure/particles.xdmf")
+    assert {*FIELDS} <= set(frame.fields)
+    finite = np.isfinite(ill.velocity).all() and np.isfinite(ill.stress).all()
+    assert not finite or ill.F[7, 0] < 0.0
+    for path in checkpoints(here / "r"):
+        assert read_state(path, fresh).state.step <= 41
+
+
+def test_3_a_particle_that_leaves_the_grid_ends_the_run(here):
+    done = cramp("run", "plate.yaml", "-s", "loads.0.total=[0, 1.0e18]", "--progress", "none")
+    assert done.returncode == 6
+    assert re.search(r"step 1, .* particle \d+ of glass at .* leaves the grid", done.stderr)
+    assert len(list((here / "plate.run/failure").glob("step_*.h5"))) == 1
+
+
+def test_3_time_steps_without_end_are_a_mistake_of_the_deck(here):
+    """A step so small that time would not move."""
+    for command in ("run", "check"):
+        done = cramp(command, "plate.yaml", "-s", "solver.dt=1e-25")
+        assert done.returncode == 3
+        assert "solver.dt: needs 2e+20 time steps" in done.stderr
+
+
+# ------------------------------------------------------------------ 4 energy
+
+
+def test_4_the_energy_books_of_every_row_close(here):
+    """The columns say what energy_error says; the limits are tested in test_failures.py."""
+    assert cramp("run", "plate.yaml").returncode == 0
+    with (here / "plate.run/history.csv").open() as file:
+        rows = [{k: float(v) for k, v in row.items()} for row in csv.DictReader(file)]
+    kinds = ("kinetic", "strain", "fracture", "friction", "plastic", "damping")
+    largest = 0.0
+    for row in rows:
+        held = sum(row[f"{kind}_energy"] for kind in kinds)
+        stored = row["kinetic_energy"] + row["strain_energy"]
+        largest = max(largest, stored, abs(row["external_work"]), held - stored)
+        error = (held - row["external_work"]) / largest if largest else 0.0
+        assert row["energy_error"] == pytest.approx(error, abs=1e-12)
+    assert abs(rows[-1]["energy_error"]) < 0.01
+
+
+# ------------------------------------------------------------------ 5 memory and disk
+
+
+def test_5_a_million_million_particles_are_refused_before_anything_is_loaded(here):
+    """Within a second and 300 MB on a free machine; here it is the cause that is tested."""
+    program = (
+        "import sys, resource; from cramp_cli.__main__ import main;"
+        "code = main(['run', 'plate.yaml', '-s', 'grid.cell=80 nm']);"
+        "size = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss;"
+        "print(code, 'numba' in sys.modules, 'h5py' in sys.modules, size < 300000)"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert done.stdout == "5 False False True\n", done.stderr
+    assert re.search(r"needs about \d+ TB of memory \(\d{15} bytes\), .* has free", done.stderr)
+    assert not (here / "plate.run").exists()
+
+
+def test_5_a_disk_that_fills_up_leaves_a_run_that_goes_on(here):
+    """A limit on the size of files stands for the disk; it fails in the same calls."""
+    often = "output.every=0.5 us"
+    whole = run_in_pieces(here / "plate.yaml", here / "whole", overrides=[often])
+
+    def limit():
+        resource.setrlimit(resource.RLIMIT_FSIZE, (1_200_000, 1_200_000))
+
+    words = ("run", "plate.yaml", "--checkpoint-every", "40", "-o", "full")
+    done = cramp(*words, "-s", often, preexec_fn=limit)
+    assert done.returncode == 5, done.stderr
+    assert "File too large" in done.stderr
+    assert "Traceback" not in done.stderr
+    assert len(checkpoints(here / "full")) >= 1
+    assert cramp("resume", "full", "--checkpoint-every", STEPS).returncode == 0
+    assert differences(whole, here / "full") == []
+
+
+# ------------------------------------------------------------------ 6 decks of all kinds
+
+
+@pytest.mark.parametrize("deck", DECKS, ids=lambda deck: deck.stem)
+def test_6_decks_that_nobody_would_write_end_with_a_known_code(cramp_here, deck):
+    """A few of them; test_soak.py has fifteen hundred."""
+    text = deck.read_text(encoding="utf-8")
+    for seed in range(12):
+        for data in (mutated(text, seed), generated(text, seed)):
+            code, told = cramp_here(data)
+            assert code in (0, 3, 4, 5), told
+            assert "Traceback" not in told
+
+
+# ------------------------------------------------------------------ 7 any surroundings
+
+
+@pytest.mark.parametrize("home", [None, "/nowhere"])
+def test_7_a_run_needs_no_home_and_no_folder_of_its_own(here, home, tmp_path_factory):
+    away = tmp_path_factory.mktemp("away")
+    keys = ("HOME", "XDG_CACHE_HOME", "CRAMP_CACHE_DIR")
+    settings = {key: value for key, value in os.environ.items() if key not in keys}
+    settings |= {"LC_ALL": "de_DE.UTF-8"} | ({"HOME": home} if home else {})
+    words = [sys.executable, "-m", "cramp_cli", "check", str(here / "plate.yaml")]
+    done = subprocess.run(words, capture_output=True, text=True, env=settings, cwd=away)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert list(away.iterdir()) == []
+
+
+def test_7_two_runs_in_one_folder_and_resume(here):
+    """The second is refused, whatever it wants, and the first is not disturbed."""
+    with begin("run", "plate.yaml", *LONG) as first:
+        wait_for(here / "plate.run/cracks.xdmf", first)
+        for words in (("resume", "plate.run"), ("run", "plate.yaml", "--resume", "auto")):
+            second = cramp(*words)
+            assert second.returncode == 4
+            assert f"in use by process {first.pid} on" in second.stderr
+        first.send_signal(signal.SIGTERM)
+        first.communicate(timeout=300)
+    assert first.returncode == 75
+
+
+# ------------------------------------------------------------------ 8 no stale kernels
+
+
+def test_8_the_cache_is_named_by_the_sources_of_kernels(tmp_path, monkeypatch):
+    for name in ("cracks/a.py", "output/b.py", "step.py"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text("x = 1\n")
+    monkeypatch.setattr(cache, "PACKAGE", tmp_path)
+    before = cache.cache_folder()
+    (tmp_path / "output/b.py").write_text("x = 2\n")
+    assert cache.cache_folder() == before
+    (tmp_path / "cracks/a.py").write_text("x = 2\n")
+    assert cache.cache_folder() != before
