@@ -20,38 +20,43 @@ def side_normal(point, k, first, last):
 
 
 @kernel
-def surface_row(rows, segments, crack, side, node, cell, qx, qy, nx, ny, tolerance):
-    """Return the row of a node that belongs to one side of a crack at the point q, or -1.
+def surface_rows(rows, segments, crack, side, node, cell, qx, qy, nx, ny, tolerance):
+    """Return the rows of a node for one side of a crack at the point q: cut and whole, or -1.
 
-    Where rows of the node are told by this crack they decide: the row of the side, else the one
-    without
-    the crack. Without such rows the line from q to the node does.
+    Where rows of the node are told by this crack they decide: the row of the side, and the one
+    without the crack, which counts beside a tip only. Without such rows the line from q to the node
+    does.
     """
     a, side_a, _, b, side_b, _, _ = crossed_cracks(segments, cell, qx, qy, nx, ny, tolerance)
     other, other_side = (b, side_b) if a == crack else (a, side_a)
     nodes = len(rows.first)
-    known = False
+    beside_tip = rows.tip[node] // 2 == crack
+    known = beside_tip
     row = rows.first[node]
     while row >= 0:
         for slot in range(2):
             known = known or rows.crack[row - nodes, slot] == crack
         row = rows.next[row - nodes]
-    if known:
-        if other < 0:
-            mine = find_row(rows, node, crack, side, -1, 0)
-        elif crack < other:
-            mine = find_row(rows, node, crack, side, other, other_side)
-        else:
-            mine = find_row(rows, node, other, other_side, crack, side)
-        return mine if mine >= 0 else find_row(rows, node, other, other_side, -1, 0)
-    if rows.tip[node] // 2 == crack:
-        return find_row(rows, node, other, other_side, -1, 0)
-    return find_row(rows, node, a, side_a, b, side_b)
+    if not known:
+        return find_row(rows, node, a, side_a, b, side_b), -1
+    if other < 0:
+        mine = find_row(rows, node, crack, side, -1, 0)
+    elif crack < other:
+        mine = find_row(rows, node, crack, side, other, other_side)
+    else:
+        mine = find_row(rows, node, other, other_side, crack, side)
+    whole = find_row(rows, node, other, other_side, -1, 0)
+    if mine < 0 and not beside_tip:
+        return whole, -1
+    return mine, whole if beside_tip else -1
 
 
 @kernel
-def surface_motion(grid, rows, segments, crack, side, q, x, cells, width, lower, strides):
-    """Return mass seen, velocity and acceleration of one surface at x (linear functions)."""
+def surface_motion(grid, rows, segments, crack, side, cut, q, x, cells, width, lower, strides):
+    """Return mass seen, velocity and acceleration of one surface at x (linear functions).
+
+    cut: share of the crack at x, as of a particle there (tip_nodes.py)
+    """
     mass, velocity, acceleration = grid.mass, grid.velocity, grid.acceleration
     rx, ry = (x[0] - lower[0]) / width, (x[1] - lower[1]) / width
     i0 = min(max(int(np.floor(rx)), 0), cells[0] - 1)
@@ -64,17 +69,19 @@ def surface_motion(grid, rows, segments, crack, side, q, x, cells, width, lower,
         for i in range(2):
             node = (i0 + i) * strides[0] + (j0 + j) * strides[1]
             nx, ny = lower[0] + width * (i0 + i), lower[1] + width * (j0 + j)
-            row = surface_row(
+            mine, whole = surface_rows(
                 rows, segments, crack, side, node, cell, q[0], q[1], nx, ny, ON_CRACK * width
             )
-            if row < 0 or mass[row] <= 0.0:
-                continue
-            w = max(0.0, 1.0 - abs(rx - i0 - i)) * max(0.0, 1.0 - abs(ry - j0 - j)) * mass[row]
-            total += w
-            vx += w * velocity[row, 0]
-            vy += w * velocity[row, 1]
-            ax += w * acceleration[row, 0]
-            ay += w * acceleration[row, 1]
+            S = max(0.0, 1.0 - abs(rx - i0 - i)) * max(0.0, 1.0 - abs(ry - j0 - j))
+            for row, share in ((mine, cut if whole >= 0 else 1.0), (whole, 1.0 - cut)):
+                if row < 0 or mass[row] <= 0.0:
+                    continue
+                w = S * share * mass[row]
+                total += w
+                vx += w * velocity[row, 0]
+                vy += w * velocity[row, 1]
+                ax += w * acceleration[row, 0]
+                ay += w * acceleration[row, 1]
     if total > 0.0:
         return total, vx / total, vy / total, ax / total, ay / total
     return 0.0, 0.0, 0.0, 0.0, 0.0
@@ -98,20 +105,24 @@ def surface_step(surface, old, k, seen, v, a, width, dt):
 
 
 @kernel
-def move_surface(paths, grid, rows, segments, crack, side, k, q, cells, width, lower, strides, dt):
+def move_surface(
+    paths, grid, rows, segments, crack, side, cut, k, q, cells, width, lower, strides, dt
+):
     """Move point k of one surface with the rows of its side; return whether, and by how much."""
     surface = paths.above if side > 0 else paths.below
     old = paths.above_velocity if side > 0 else paths.below_velocity
     x = (surface[k, 0], surface[k, 1])
     seen, vx, vy, ax, ay = surface_motion(
-        grid, rows, segments, crack, side, q, x, cells, width, lower, strides
+        grid, rows, segments, crack, side, cut, q, x, cells, width, lower, strides
     )
     return surface_step(surface, old, k, seen, (vx, vy), (ax, ay), width, dt)
 
 
 @kernel
-def move_cracks(paths, grid, rows, segments, cells, width, lower, strides, dt):
+def move_cracks(paths, cut, grid, rows, segments, cells, width, lower, strides, dt):
     """Move all surfaces and planes of cracks by one step.
+
+    cut: (points,) share of the crack at each point, below 1 beside smooth tips
 
     A side that sees no solid moves with the other one. A crack on a symmetry plane has a body on
     one side only; the other side is its image, so the plane stays where it is.
@@ -130,12 +141,38 @@ def move_cracks(paths, grid, rows, segments, cells, width, lower, strides, dt):
             if axis < 0 or body > 0:
                 q = (point[k, 0] + off * n[0], point[k, 1] + off * n[1])
                 up, ax, ay = move_surface(
-                    paths, grid, rows, segments, c, 1, k, q, cells, width, lower, strides, dt
+                    paths,
+                    grid,
+                    rows,
+                    segments,
+                    c,
+                    1,
+                    cut[k],
+                    k,
+                    q,
+                    cells,
+                    width,
+                    lower,
+                    strides,
+                    dt,
                 )
             if axis < 0 or body < 0:
                 q = (point[k, 0] - off * n[0], point[k, 1] - off * n[1])
                 down, bx, by = move_surface(
-                    paths, grid, rows, segments, c, -1, k, q, cells, width, lower, strides, dt
+                    paths,
+                    grid,
+                    rows,
+                    segments,
+                    c,
+                    -1,
+                    cut[k],
+                    k,
+                    q,
+                    cells,
+                    width,
+                    lower,
+                    strides,
+                    dt,
                 )
             flip_x, flip_y = -1.0 if axis == 0 else 1.0, -1.0 if axis == 1 else 1.0
             if up and not down:

@@ -1,5 +1,7 @@
 """Cracks in a step: the rows of particles near them, and their motion; arrays grow if need be."""
 
+import numpy as np
+
 from cramp_cli.cracks.advect import move_cracks
 from cramp_cli.cracks.contact import GLUED, sum_displacement
 from cramp_cli.cracks.crossing import list_segments, make_segments
@@ -9,7 +11,7 @@ from cramp_cli.cracks.rows import (
     find_particles_near_cracks,
     forget_rows,
 )
-from cramp_cli.cracks.tip_nodes import EXTENSION, mark_tip_nodes
+from cramp_cli.cracks.tip_nodes import EXTENSION, cut_along_cracks, mark_tip_nodes
 from cramp_cli.shapes.shape import offsets, support
 from cramp_cli.state.grid import make_grid
 from cramp_cli.state.model import Scratch
@@ -47,7 +49,7 @@ def _rows_fit(scratch, state, model) -> bool:
     grid = (lattice.cells, lattice.width, lattice.lower, strides)
     blended = tips is not None
     growth = 2 if blended else 1
-    smooth = blended & (model.contact.kind != GLUED)  # a glued crack is no crack
+    smooth = smooth_cracks(model)
     beyond = EXTENSION * lattice.width * smooth
     zone = 2 * support(shape) + growth - 1
     if not list_segments(segments, state.paths, *grid, growth, zone, beyond):
@@ -76,6 +78,11 @@ def _rows_fit(scratch, state, model) -> bool:
     return True
 
 
+def smooth_cracks(model):
+    """Return for each crack whether its tips are smooth; a glued crack is no crack."""
+    return (model.tip_nodes is not None) & (model.contact.kind != GLUED)
+
+
 def find_openings(model, state, scratch) -> None:
     """Extrapolate displacements and places to nodes with several rows."""
     if not scratch.rows.count[1]:
@@ -96,9 +103,13 @@ def find_openings(model, state, scratch) -> None:
 def move_paths(model, state, scratch) -> None:
     """Move all cracks with the solid."""
     if state.paths.crack_count:
-        lattice = model.lattice
+        lattice, paths, tips = model.lattice, state.paths, model.tip_nodes
+        cut = np.ones(len(paths.point))
+        if tips is not None:
+            cut = cut_along_cracks(paths, smooth_cracks(model), lattice.width, *tips)
         move_cracks(
-            state.paths,
+            paths,
+            cut,
             scratch.grid,
             scratch.rows,
             scratch.segments,

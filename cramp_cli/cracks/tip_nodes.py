@@ -96,6 +96,26 @@ def cut_share(paths, tip, x, y, half, width, centre, ramp):
 
 
 @kernel
+def cut_along_cracks(paths, smooth, width, centre, ramp):
+    """Return the cut share at all points of all cracks: 1 but beside smooth tips, (points,)."""
+    point, start = paths.point, paths.start
+    cut = np.ones(len(point))
+    for tip in range(2 * (len(start) - 1)):
+        c, end = tip // 2, tip % 2
+        if paths.ends[c, end] != TIP or not smooth[c]:
+            continue
+        k, step = (start[c], 1) if end == 0 else (start[c + 1] - 1, -1)
+        behind = centre * width
+        while start[c] <= k < start[c + 1] and behind < ramp * width:
+            cut[k] = min(cut[k], behind / (ramp * width))
+            if start[c] <= k + step < start[c + 1]:
+                dx, dy = point[k + step, 0] - point[k, 0], point[k + step, 1] - point[k, 1]
+                behind += sqrt(dx * dx + dy * dy)
+            k += step
+    return cut
+
+
+@kernel
 def forget_tips(rows):
     """Make all nodes plain again."""
     for i in range(rows.count[4]):

@@ -31,6 +31,9 @@ from cramp_cli.state.paths import TIP
 BESIDE = 3.0  # cells behind a tip and beside the crack in which the sides are told apart
 USUAL, SMALLEST = 5.0, 2.5  # radius of the domain in cells, and the least that gives a number
 SPREAD = (0.8, 1.0, 1.2)  # radii that are compared, in shares of the radius
+DOUBTFUL = 0.2  # share by which two numbers for one J may differ
+NOISE = 0.01  # share of the strain energy around the tip that is no J
+ROUND_OFF = 1e-12  # a strain that is none
 LEAK = 0.02  # part of the domain that may be empty: particles are a coarse quadrature
 
 
@@ -117,6 +120,8 @@ def _sample(model, state, scratch, tip) -> dict:
         measured, remark = _measure_contour(model, state, scratch, tip, site, normal, slide)
         row |= measured
         remarks.append(remark)
+    if not any("closed" in remark for remark in remarks):
+        remarks.append(_doubt(model, state, site, row))
     return row | {"status": "; ".join(filter(None, remarks)) or "ok"}
 
 
@@ -214,6 +219,32 @@ def _measure_domain(model, state, scratch, tip, site):
     if closed or _is_closed(model, scratch, tip, paths.point[tip.points[0]], radius):
         K_I, status = 0.0, "; ".join(filter(None, ["closed", status]))
     return {"J": J, "K_I": K_I, "K_II": K_II, "J_spread": spread}, status
+
+
+def _doubt(model, state, site, row) -> str:
+    """Say so where two numbers for the same thing are far apart.
+
+    J that is not that of K: the field around the tip is not that of a crack. A contour far from a
+    domain: the contour misses something. What is nothing beside the strain energy around the tip is
+    noise.
+    """
+    radius = USUAL * model.lattice.width
+    near = np.hypot(*(state.particles.origin - site.frame.origin).T) < radius
+    energy = (
+        float(state.particles.work[near].sum()) / max(int(near.sum()), 1)
+        + ROUND_OFF**2 * site.hooke.stiffness
+    )
+    J, of_K = row["J"], (row["K_I"] ** 2 + row["K_II"] ** 2) / site.hooke.stiffness
+    texts = {
+        "doubtful: J and that of K differ by {:.0f} %": (J, of_K),
+        "contour doubtful: {:.0f} % from the domain": (J, row["J_contour"]),
+    }
+    found = []
+    for text, (one, other) in texts.items():
+        off, larger = abs(one - other), max(abs(one), abs(other))
+        if off > max(DOUBTFUL * larger, NOISE * radius * energy):
+            found.append(text.format(100.0 * off / larger))
+    return "; ".join(found)
 
 
 def _spread(J, others) -> float:
