@@ -3,7 +3,6 @@
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from time import monotonic
 from typing import NamedTuple
 
 import typer
@@ -36,35 +35,18 @@ class RunOptions(NamedTuple):
 
 def run_deck(path: Path, options: RunOptions) -> Path | None:
     """Read, check, estimate, build and simulate a deck; return the folder of the results."""
-    begun, threads = monotonic(), choose_threads(options.threads)
     if options.overwrite and options.resume != "never":
         raise typer.BadParameter("--overwrite begins anew, --resume goes on: give one of them")
-    folder = options.output or Path(f"{path.stem}.run")
+    options = options._replace(
+        output=options.output or Path(f"{path.stem}.run"), threads=choose_threads(options.threads)
+    )
     deck = load_deck(path, options.overrides, options.strict)
-    from cramp_cli.deck.deck import to_yaml
-    from cramp_cli.deck.size import size_of
-
-    refuse_too_big(size_of(deck)._asdict(), folder, options.max_memory, options.max_disk)
-    from cramp_cli.build import build, estimate  # late: imports numba
-    from cramp_cli.output.folder import RunFolder
-    from cramp_cli.output.resume import find_start, is_finished
-    from cramp_cli.output.stop import Signs
-
-    needs = estimate(deck)
-    refuse_too_big(needs, folder, options.max_memory, options.max_disk)
+    needs = _fitting_needs(deck, options)
     if options.dry_run:
         say(facts_text(f"{path}: nothing wrong; a run would take", readable(needs)))
         return None
-    again = options.overwrite or options.resume != "never"
-    with RunFolder(folder, again) as claimed, Signs(folder, options.max_wall, begun) as signs:
-        resolved = to_yaml(deck.resolved())
-        if options.resume != "never" and is_finished(folder, resolved):
-            say(f"{folder}: is done already; nothing is left to do")
-            return folder
-        model, state = build(deck)
-        start = find_start(folder, options.resume, resolved, state)
-        _simulate(deck, model, start, claimed, threads, signs, options)
-    return folder
+    _run(deck, options)
+    return options.output
 
 
 def resume_folder(folder: Path, options: RunOptions) -> Path:
@@ -76,31 +58,64 @@ def resume_folder(folder: Path, options: RunOptions) -> Path:
     return run_deck(folder / "resolved.yaml", options)
 
 
-def _simulate(deck, model, start, folder, threads, signs, options) -> None:
+def _fitting_needs(deck, options: RunOptions) -> dict:
+    """Return what a run takes; raise OutOfResources if that is too much.
+
+    What no memory holds is refused before numba is imported, which takes longer than all else.
+    """
+    from cramp_cli.deck.size import size_of
+
+    limits = options.output, options.max_memory, options.max_disk
+    refuse_too_big(size_of(deck)._asdict(), *limits)
+    from cramp_cli.build import estimate  # late: imports numba
+
+    needs = estimate(deck)
+    refuse_too_big(needs, *limits)
+    return needs
+
+
+def _run(deck, options: RunOptions) -> None:
+    """Claim the folder, find out where to begin, simulate."""
+    from cramp_cli.build import build
     from cramp_cli.deck.deck import to_yaml
+    from cramp_cli.output.folder import RunFolder
+    from cramp_cli.output.resume import find_start, is_finished
+    from cramp_cli.output.stop import Signs
+
+    folder, goes_on = options.output, options.resume != "never"
+    with (
+        Signs(folder, options.max_wall) as signs,
+        RunFolder(folder, options.overwrite or goes_on) as claimed,
+    ):
+        resolved = to_yaml(deck.resolved())
+        if goes_on and is_finished(folder, resolved):
+            say(f"{folder}: is done already; nothing is left to do")
+            return
+        model, state = build(deck)
+        start = find_start(folder, options.resume, resolved, state)
+        _simulate(deck, resolved, model, start, claimed, signs, options)
+
+
+def _simulate(deck, resolved: str, model, start, folder, signs, options: RunOptions) -> None:
     from cramp_cli.output.keeper import Keeper
     from cramp_cli.output.log import Reporter
     from cramp_cli.output.run import RunOutputs
     from cramp_cli.simulation import simulate
 
-    texts, end = (deck.source_text, to_yaml(deck.resolved())), deck.solver.end_time
-    with RunOutputs(folder, *texts, end_time=end, threads=threads, places=start.places) as outputs:
+    facts = {"end_time": deck.solver.end_time, "threads": options.threads, "places": start.places}
+    with RunOutputs(folder, deck.source_text, resolved, **facts) as outputs:
         reporter = Reporter(outputs.log, options.progress, options.verbosity)
         for warning in deck.warnings:
             outputs.log.write("warning", str(warning))
-        keeper = Keeper(outputs, signs, options.checkpoint_every, texts[1])
+        memory = {
+            "keeper": Keeper(outputs, signs, options.checkpoint_every, resolved),
+            "remembered": start.remembered,
+        }
         with reporter:
-            for level, text in start.remarks:
+            for level, text in [*start.remarks, *(("warning", text) for text in outputs.remarks)]:
                 reporter.message(level, text)
             summary = simulate(
-                deck,
-                model,
-                start.state,
-                outputs,
-                reporter,
-                profile=options.profile,
-                keeper=keeper,
-                remembered=start.remembered,
+                deck, model, start.state, outputs, reporter, profile=options.profile, **memory
             )
         outputs.finish(summary)
         reporter.summary(summary)

@@ -20,6 +20,10 @@ OLD = ("earliest", "v110")  # VTK reads no points of newer files
 PACKED = {"compression": "gzip", "compression_opts": 1, "shuffle": True}
 
 
+class Unreadable(FolderError):
+    """A file of frames is missing or none of HDF5."""
+
+
 class Frame(NamedTuple):
     """All particles, or all cracks, at one moment."""
 
@@ -121,11 +125,11 @@ def tensor_of_plane(values: np.ndarray) -> np.ndarray:
 
 
 def _open_whole(path: Path, mode: str):
-    """Open a file that must be there; FolderError if it is none of HDF5."""
+    """Open a file that must be there and whole, or raise Unreadable."""
     try:
         return opened(path, mode if path.exists() else "r", libver=OLD)
     except OSError as error:
-        raise FolderError(f"{path}: cannot be read as HDF5 ({error})") from None
+        raise Unreadable(f"{path}: cannot be read as HDF5 ({error})") from None
 
 
 def _size(frame: Frame) -> tuple[int, int]:

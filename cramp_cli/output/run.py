@@ -11,7 +11,7 @@ import numpy as np
 from cramp_cli.output.atomic import sync
 from cramp_cli.output.checkpoint import write_state
 from cramp_cli.output.exits import INTERNAL, STOPPED, exit_code, one_line
-from cramp_cli.output.fields import FrameWriter
+from cramp_cli.output.fields import FrameWriter, Unreadable
 from cramp_cli.output.folder import RunFolder
 from cramp_cli.output.history import (
     CRACK_COLUMNS,
@@ -54,6 +54,7 @@ class RunOutputs:
         self._tables: dict[str, CsvTable] = {}
         self._frames: dict[str, FrameWriter] = {}
         self._before = places["tables"] if places else {}  # tables to go on with
+        self.remarks: list[str] = []  # on files that could not be taken up
         if places:
             folder.go_on()
             self._take_up(places)
@@ -175,9 +176,20 @@ class RunOutputs:
         cut_tables(self.path, places["tables"])
         for kind in ("particles", "cracks"):
             keep = places["frames"].get(kind)
-            writer = FrameWriter(self.path, kind, self._real, keep)
+            try:
+                writer = FrameWriter(self.path, kind, self._real, keep)
+            except Unreadable as error:
+                writer = self._without_earlier_frames(kind, error)
             if keep is not None:
                 self._frames[kind] = writer
+
+    def _without_earlier_frames(self, kind: str, error: Unreadable) -> FrameWriter:
+        """Begin a new file of frames: a run must not be lost for its pictures."""
+        path = self.path / f"{kind}.h5"
+        if path.exists():
+            path.replace(path.with_suffix(".damaged"))
+        self.remarks.append(f"{error}; its frames are lost, later ones go into a new file")
+        return FrameWriter(self.path, kind, self._real)
 
     def _writer(self, kind: str) -> FrameWriter:
         if kind not in self._frames:

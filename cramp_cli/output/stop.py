@@ -18,14 +18,13 @@ TOLD = b"\ncramp: stopping after this step, with a checkpoint; Ctrl-C again ends
 class Signs:
     """Says whether a run has been asked to stop; listens to signals while used with ``with``.
 
-    folder: where a file STOP counts; max_wall: seconds after `begun` at which to stop
-    begun: reading of the monotonic clock at the start of the program; a change of the date does
-    not matter
+    folder: where a file STOP counts
+    max_wall: seconds from now on after which to stop; a change of the date does not matter
     """
 
-    def __init__(self, folder: Path, max_wall: float | None = None, begun: float | None = None):
+    def __init__(self, folder: Path, max_wall: float | None = None) -> None:
         self._file = os.path.join(folder, STOP)
-        self._end = None if max_wall is None else (begun or monotonic()) + max_wall
+        self._end = None if max_wall is None else monotonic() + max_wall
         self._signal = ""
         self._before: dict = {}
 

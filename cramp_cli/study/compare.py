@@ -22,7 +22,7 @@ FLOOR = 1e-10  # share of the largest number of a column that counts as nothing
 
 
 class Tolerance(NamedTuple):
-    """How far a number may be from its reference: rtol |reference| + atol."""
+    """How far a number may be from its reference: rtol |reference| + atol; inf: any distance."""
 
     rtol: float = RTOL
     atol: float | None = None  # None: FLOOR times the largest number of the column
@@ -170,11 +170,11 @@ def _distance(a: np.ndarray, b: np.ndarray, tolerance: Tolerance) -> tuple[np.nd
     atol = FLOOR * finite.max(initial=0.0) if tolerance.atol is None else tolerance.atol
     with np.errstate(invalid="ignore"):
         off = np.abs(b - a)
-        allowed = np.where(a == 0.0, 0.0, tolerance.rtol * np.abs(a)) + atol
     off[(a == b) | (np.isnan(a) & np.isnan(b))] = 0.0
     off[np.isnan(a) != np.isnan(b)] = np.inf
-    allowed[~np.isfinite(a)] = np.inf if np.isinf(tolerance.rtol) else atol
-    return off, allowed
+    if np.isinf(tolerance.rtol):
+        return off, np.full(len(a), np.inf)
+    return off, np.where(np.isfinite(a), tolerance.rtol * np.abs(a), 0.0) + atol
 
 
 def _excess(off: np.ndarray, allowed: np.ndarray) -> np.ndarray:

@@ -28,12 +28,13 @@ from cramp_cli.numerics import cache
 from cramp_cli.output.checkpoint import checkpoints, read_state
 from cramp_cli.output.exits import FolderError
 from cramp_cli.output.fields import read_frames
+from cramp_cli.output.look import describe, facts
 from cramp_cli.output.stop import Signs
 from cramp_cli.simulation import DUES, Books, _Run
 from cramp_cli.state.failure import NumericalFailure
 from cramp_cli.state.measures import FIELDS
 
-DECKS = sorted(path for path in INPUTS.glob("*.yaml") if not path.name.endswith(".expect.yaml"))
+DECKS = sorted(path for path in INPUTS.glob("*.yaml") if "." not in path.stem)
 LONG = ("-s", "solver.end_time=1")  # s: nobody waits for its end
 
 
@@ -53,6 +54,8 @@ def test_1_a_run_in_pieces_is_the_same_to_the_byte(here, stops):
     assert manifest(pieces)["status"] == "done"
     assert [part["step"] for part in manifest(pieces)["parts"]] == [0, *stops]
     assert differences(whole, pieces) == []
+    parts = facts(describe(pieces))["parts"]
+    assert parts.startswith(f"{len(stops) + 1}, taken up at step {stops[0]}")
 
 
 @pytest.mark.parametrize("deck", DECKS, ids=lambda deck: deck.stem)
@@ -193,6 +196,20 @@ def test_2_a_damaged_checkpoint_is_passed_over_and_the_log_says_so(here):
     assert f"{newest}: is damaged (its checksum is wrong); an older one is tried" in log
     assert f"goes on from the checkpoint of step {int(older.stem[5:])}" in log
     assert differences(whole, run) == []
+
+
+def test_2_a_damaged_file_of_frames_does_not_end_a_run(here):
+    """The numbers of the tables do not depend on it."""
+    whole = run_in_pieces(here / "plate.yaml", here / "whole")
+    run_in_pieces(here / "plate.yaml", here / "r", (60,), checkpoint_every=(9999, None))
+    (here / "r/particles.h5").write_bytes(b"no HDF5")
+    (here / "r/manifest.json").write_text(json.dumps(manifest(here / "r") | {"status": "stopped"}))
+    done = cramp("resume", "r")
+    assert done.returncode == 0
+    assert "its frames are lost, later ones go into a new file" in done.stderr
+    assert (here / "r/history.csv").read_bytes() == (whole / "history.csv").read_bytes()
+    assert (here / "r/particles.damaged").read_bytes() == b"no HDF5"
+    assert len(list(read_frames(here / "r/particles.xdmf"))) >= 1
 
 
 def test_2_resume_needs_something_to_go_on_from(here):

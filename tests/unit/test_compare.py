@@ -68,6 +68,9 @@ def test_limits_hold_for_all_or_for_one_column(runs):
     assert changed(runs, old, new, rtol=1.1e-4).alike
     assert changed(runs, old, new, columns={"J": Tolerance(0.0, 9e-4)}).alike
     assert changed(runs, old, new, columns={"J": Tolerance(float("inf"))}).alike
+    zero = "a,end,0,0", "a,end,5,0"
+    assert changed(runs, *zero, columns={"J": Tolerance(float("inf"))}).alike
+    assert not changed(runs, *zero, rtol=1e9).alike
     assert not changed(runs, old, new, columns={"K_I": Tolerance(1.0)}).alike
     assert not changed(runs, old, new, rtol=0.9e-4).alike
 
