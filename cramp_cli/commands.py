@@ -10,7 +10,7 @@ import typer
 from cramp_cli.output.machine import choose_threads, human_bytes, refuse_too_big
 from cramp_cli.output.tables import facts_text
 
-LARGEST_BUILT = 1.64e9  # bytes that `check` may use: those of five million particles
+LARGEST_BUILT = 3.3e8  # bytes that `check` may use: those of a million particles, two seconds
 NOT_BUILT = "too large to be built by check; what a load or boundary does not meet, run will tell"
 
 

@@ -66,7 +66,7 @@ def look_at(run):
 
 
 def test_6_strange_decks_end_with_a_known_code(cramp_here):
-    """Each in 10 s at most: `check` builds models of up to five million particles."""
+    """Each in 10 s at most: `check` builds models of up to a million particles."""
     texts, codes, slowest = [deck.read_text() for deck in DECKS], {}, 0.0
     for number in range(MUTATED + GENERATED):
         text, seed = texts[number % len(texts)], SEED * 10_000 + number
