@@ -1,1 +1,1 @@
-"""What is done with finished runs."""
+"""What is done beside a run: pictures, reports, and many runs from one deck."""

@@ -8,6 +8,7 @@ import pytest
 from plate import PLATE
 
 from cramp_cli.__main__ import main
+from cramp_cli.deck.size import Size
 from cramp_cli.output.summary import Summary
 
 TIP = {"crack": "notch", "tip": "end", "x": 0.0153, "y": 0.0, "J": 1.5, "K_I": 3e5, "K_II": 0.0}
@@ -74,4 +75,6 @@ def solver(monkeypatch):
         module = ModuleType(name)
         module.__dict__.update(parts)
         monkeypatch.setitem(sys.modules, name, module)
+    size = Size((30, 30), 3, stub.needs["memory_bytes"])
+    monkeypatch.setattr("cramp_cli.deck.size.size_of", lambda deck: size)
     return stub
