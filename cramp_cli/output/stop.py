@@ -29,8 +29,9 @@ class Signs:
         self._before: dict = {}
 
     def __enter__(self) -> "Signs":
+        heard = [n for n in POLITE if signal.getsignal(n) != signal.SIG_IGN]  # or a shell's `&`
         with suppress(ValueError):  # not in the main thread: then signals are none of our business
-            self._before = {number: signal.signal(number, self._note) for number in POLITE}
+            self._before = {number: signal.signal(number, self._note) for number in heard}
         return self
 
     def __exit__(self, *error: object) -> None:

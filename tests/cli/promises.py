@@ -1,6 +1,7 @@
 """What the tests of promises share: a small deck, runs of it in pieces, and what must be equal."""
 
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -88,7 +89,14 @@ def cramp(*words, **settings) -> subprocess.CompletedProcess:
 def begin(*words) -> subprocess.Popen:
     """Start a command line in a process of its own."""
     line = [sys.executable, "-m", "cramp_cli", "-q", *map(str, words)]
-    return subprocess.Popen(line, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    return subprocess.Popen(
+        line, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, preexec_fn=_hear_ctrl_c
+    )
+
+
+def _hear_ctrl_c() -> None:
+    """Undo what a shell does to commands in the background, in case the tests run there."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def wait_for(path: Path, process: subprocess.Popen) -> None:

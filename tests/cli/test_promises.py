@@ -142,6 +142,15 @@ def test_2_a_signal_stops_a_run_with_a_checkpoint(here, number):
     assert len(list(read_frames(here / "plate.run/particles.xdmf"))) >= 1
 
 
+@pytest.fixture
+def ctrl_c():
+    """Ctrl-C as on a terminal, whatever the tests run under."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("ctrl_c")
 def test_2_a_second_ctrl_c_ends_at_once(tmp_path):
     with Signs(tmp_path) as signs:
         assert signs() == ""
@@ -149,6 +158,15 @@ def test_2_a_second_ctrl_c_ends_at_once(tmp_path):
         assert signs() == "Ctrl-C"
         with pytest.raises(KeyboardInterrupt):
             signal.raise_signal(signal.SIGINT)
+
+
+@pytest.mark.usefixtures("ctrl_c")
+def test_2_what_a_shell_ignores_stays_ignored(tmp_path):
+    """A shell without job control starts commands in the background deaf to Ctrl-C."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    with Signs(tmp_path) as signs:
+        signal.raise_signal(signal.SIGINT)
+        assert signs() == ""
 
 
 def test_2_signals_are_given_back(tmp_path):
