@@ -49,10 +49,10 @@ def differences(one: Path, other: Path) -> list[str]:
             found += [f"{name}:{place}" for place in unequal_data(one / name, other / name)]
         elif (one / name).read_bytes() != (other / name).read_bytes():
             found.append(name)
-    newest = [checkpoints(run)[:1] for run in (one, other)]
-    if all(newest):
-        found += [f"state:{place}" for place in unequal_data(newest[0][0], newest[1][0], "state")]
-    return found
+    states = [{path.name for path in checkpoints(run)} for run in (one, other)]
+    name = max(states[0] & states[1])  # there has to be one, or the runs tell nothing of states
+    pair = (run / "checkpoints" / name for run in (one, other))
+    return found + [f"state:{place}" for place in unequal_data(*pair, "state")]
 
 
 def unequal_data(one: Path, other: Path, group: str = "/") -> list[str]:

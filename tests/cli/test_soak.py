@@ -12,7 +12,7 @@ import xml.etree.ElementTree as ElementTree
 
 import pytest
 from fuzz import generated, mutated
-from promises import begin, cramp, differences
+from promises import begin, cramp, differences, run_in_pieces
 from runs import INPUTS
 
 from cramp_cli.output.fields import read_frames
@@ -25,6 +25,18 @@ KILLS, MUTATED, GENERATED = 30, 500, 1000
 # frames and checkpoints so often that many kills fall into the writing of files
 SETTINGS = ("-s", "solver.end_time=100 us", "-s", "output.every=1 us")
 HOW = ("--checkpoint-every", 25, "--resume", "auto")
+
+
+@pytest.mark.parametrize("deck", DECKS, ids=lambda deck: deck.stem)
+def test_1_a_whole_deck_in_pieces_is_the_same_to_the_byte(tmp_path, deck):
+    """To its end, with all the growth that it has, stopped three times."""
+    whole = run_in_pieces(deck, tmp_path / "whole", checkpoint_every=(50, None))
+    with (whole / "history.csv").open(newline="") as file:
+        steps = int(list(csv.DictReader(file))[-1]["step"])
+    stops = sorted(random.Random(SEED).sample(range(1, steps), 3))
+    pieces = run_in_pieces(deck, tmp_path / "pieces", stops, checkpoint_every=(50, None))
+    assert differences(whole, pieces) == []
+    print(f"\n{deck.stem}: {steps} steps, stopped after {stops}: the same")
 
 
 def test_2_thirty_kills_at_random_moments_lose_nothing(here):
