@@ -25,8 +25,9 @@ demo: $(READY)  ## run a double cantilever beam and compare its J and K_I with a
 	$(BIN)/cramp run inputs/dcb.yaml -o dcb.run --overwrite
 	@echo
 	@echo "Reference (NairnMPM, J by contour at 1.5 ms):   336 | 5.797e+05 |"
-	@echo "All samples: dcb.run/cracks.csv. Pictures: open dcb.run/particles.xdmf in ParaView"
-	@echo "(and dcb.run/cracks.xdmf for the crack)."
+	$(BIN)/cramp report dcb.run
+	@echo "All samples: dcb.run/cracks.csv. To look at it: open dcb.run/report.html in a browser,"
+	@echo "or dcb.run/particles.xdmf and dcb.run/cracks.xdmf in ParaView."
 
 test: lint  ## lint and the fast tests (layer rule included)
 	$(BIN)/python -m pytest -n $(JOBS) -q -m "not slow and not soak"

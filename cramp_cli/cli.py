@@ -15,6 +15,7 @@ from typing import Annotated
 import typer
 
 from cramp_cli import __version__
+from cramp_cli.cli_sweep import sweep
 
 app = typer.Typer(
     add_completion=False,
@@ -22,6 +23,8 @@ app = typer.Typer(
     rich_markup_mode=None,
     help="Fracture simulation with explicit cracks in the material point method.",
 )
+
+app.add_typer(sweep, name="sweep")
 
 
 class Progress(StrEnum):
@@ -39,6 +42,24 @@ class Resume(StrEnum):
     never = "never"
     auto = "auto"
     must = "must"
+
+
+class Picture(StrEnum):
+    """Pictures that `plot` draws."""
+
+    tips = "tips"
+    energy = "energy"
+    path = "path"
+    field = "field"
+    animation = "animation"
+
+
+class Ink(StrEnum):
+    """Forms of a picture."""
+
+    png = "png"
+    pdf = "pdf"
+    svg = "svg"
 
 
 class Form(StrEnum):
@@ -154,6 +175,24 @@ def cramp(
     context.ensure_object(Settings).verbosity = 0 if quiet else 2 if verbose else 1
     if no_color:
         os.environ["NO_COLOR"] = "1"
+
+
+@app.command()
+def init(
+    template: Annotated[str, typer.Argument(help="Which one; see --list.")] = "center_crack",
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", help="The new file [<template>.yaml].")
+    ] = None,
+    listed: Annotated[bool, typer.Option("--list", help="Tell all templates.")] = False,
+):
+    """Write a commented deck that runs within a minute."""
+    from cramp_cli.study.templates import list_text, write_template
+
+    if listed:
+        print(list_text())
+        return
+    for written in write_template(template, output):
+        print(written)
 
 
 @app.command()
@@ -350,6 +389,74 @@ def diff(
 
 
 @app.command()
+def preview(
+    deck: Deck,
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", help="The picture: .png, .pdf, .svg [<deck>.png]."),
+    ] = None,
+    sets: Sets = None,
+):
+    """Draw a deck: bodies, cracks, loads, boundary, grid."""
+    from cramp_cli.commands import load_deck
+    from cramp_cli.study.preview import preview as draw
+
+    print(draw(load_deck(deck, sets or []), output or Path(f"{deck.stem}.png")))
+
+
+@app.command()
+def plot(
+    path: Run,
+    pictures: Annotated[
+        list[Picture] | None,
+        typer.Argument(help="Which ones [all but animation].", metavar="PICTURE"),
+    ] = None,
+    columns: Annotated[
+        list[str] | None,
+        typer.Option("--column", metavar="NAME", help="A column over time; may be given often."),
+    ] = None,
+    references: Annotated[
+        list[Path] | None,
+        typer.Option(
+            "--reference", metavar="CSV", help="Curves to compare: time and our column names."
+        ),
+    ] = None,
+    field: Annotated[
+        str, typer.Option(help="Quantity of the particles, like stress_yy [von_mises].")
+    ] = "",
+    time: Annotated[str | None, typer.Option(help="Of field and path, like '1 ms' [last].")] = None,
+    magnify: Annotated[float, typer.Option(min=0.0, help="Draw the motion that often.")] = 1.0,
+    form: Annotated[Ink, typer.Option("--format", help="Kind of files.")] = Ink.png,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", help="Folder for them [RUNDIR/pictures].")
+    ] = None,
+):
+    """Draw J and K, energies, cracks and fields of a run.
+
+    Pictures: tips, energy, path, field, animation (GIF). Prints the files.
+    """
+    from cramp_cli.study.plot import PlotOptions, View, plot, seconds
+
+    view = View(field, seconds(time), magnify)
+    options = PlotOptions(pictures or (), columns or (), references or (), view, form.value)
+    for written in plot(path, output or path / "pictures", options):
+        print(written)
+
+
+@app.command()
+def report(
+    path: Run,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", help="The page [RUNDIR/report.html].")
+    ] = None,
+):
+    """Write one HTML page about a run, to look at or send."""
+    from cramp_cli.study.report import report as write
+
+    print(write(path, output or path / "report.html"))
+
+
+@app.command()
 def doctor(
     warmup: Annotated[bool, typer.Option("--warmup", help="Compile all kernels now.")] = False,
 ):
@@ -366,3 +473,22 @@ def doctor(
         print(f"problem: {fault}", file=sys.stderr)
     if faults:
         raise typer.Exit(FILES)
+
+
+@app.command()
+def bench(
+    threads: Annotated[
+        int | None, typer.Option("-t", "--threads", min=1, help="Number of threads.")
+    ] = None,
+    large: Annotated[bool, typer.Option("--large", help="With 2.5 million particles.")] = False,
+    start: Annotated[bool, typer.Option("--start", help="Time a cold and a warm start.")] = False,
+    only: Annotated[list[str], typer.Option("--only", help="Cases with this word.")] = (),
+    compare: Annotated[
+        Path | None, typer.Option("--compare", exists=True, help="An older result, as JSON.")
+    ] = None,
+    as_json: Json = False,
+):
+    """Time fixed cases: million particle-steps per second, beside a plain loop ("yards")."""
+    from cramp_cli.commands import run_bench
+
+    run_bench(threads, large, start, list(only), compare, as_json)

@@ -114,9 +114,8 @@ def _simulate(deck, resolved: str, model, start, folder, signs, options: RunOpti
         with reporter:
             for level, text in [*start.remarks, *(("warning", text) for text in outputs.remarks)]:
                 reporter.message(level, text)
-            summary = simulate(
-                deck, model, start.state, outputs, reporter, profile=options.profile, **memory
-            )
+            how = {"threads": options.threads, "profile": options.profile} | memory
+            summary = simulate(deck, model, start.state, outputs, reporter, **how)
         outputs.finish(summary)
         reporter.summary(summary)
 
@@ -208,6 +207,38 @@ def warm_up() -> str:
     begun = perf_counter()
     run_small_cases()
     return f"{perf_counter() - begun:.1f} s"
+
+
+def run_bench(
+    threads: int | None,
+    large: bool,
+    start: bool,
+    only: list[str],
+    older: Path | None,
+    as_json: bool,
+) -> None:
+    """Time the cases and print them as they come, or all as JSON in the end."""
+    import json
+
+    count = choose_threads(threads)
+    from cramp_cli.study.bench import HEAD, bench, read_old, row, stages_text, time_start
+
+    old = read_old(older)
+
+    def tell(name: str, timing: dict) -> None:
+        say(row(name, timing, old.get(name)) + "\n" + stages_text(timing))
+
+    say(HEAD)
+    found = bench(count, large, only, tell)
+    if start:
+        found["start"] = time_start()
+        say("start: {cold:.1f} s with nothing compiled, {warm:.2f} s warm".format(**found["start"]))
+    print(json.dumps(found, indent=2) if as_json else table(found, old, HEAD, row))
+
+
+def table(found: dict, old: dict, head: str, row) -> str:
+    """Return the table of a bench."""
+    return "\n".join([head, *(row(n, t, old.get(n)) for n, t in found["cases"].items())])
 
 
 def readable(needs: dict) -> dict[str, object]:

@@ -10,7 +10,7 @@ import numpy as np
 from cramp_cli.boundary.conditions import hold_increment, reflect_sum
 from cramp_cli.cracks.contact import touch_increment
 from cramp_cli.transfer.on_grid import divide_by_mass, find_velocity
-from cramp_cli.transfer.to_grid import smooth
+from cramp_cli.transfer.sums import smooth
 from cramp_cli.transfer.update import Fmpm, Xpic
 
 
@@ -25,11 +25,11 @@ def find_update_velocity(model, state, scratch) -> None:
     """Set the grid velocity of the particle update."""
     grid, count = scratch.grid, scratch.row_count
     find_velocity(grid, count)
-    increment = grid.velocity[:count].copy()
+    if isinstance(model.update, Fmpm):
+        _add_orders(model, state, scratch, grid.velocity[:count].copy())
     if isinstance(model.update, Xpic):
-        increment -= model.dt * grid.acceleration[:count]
-    if isinstance(model.update, Fmpm | Xpic):
-        _add_orders(model, state, scratch, increment)
+        before = grid.velocity[:count] - model.dt * grid.acceleration[:count]
+        _add_orders(model, state, scratch, before)
 
 
 def _add_orders(model, state, scratch, increment) -> None:
@@ -37,17 +37,7 @@ def _add_orders(model, state, scratch, increment) -> None:
     grid = scratch.grid
     for _ in range(1, model.update.order):
         smoothed = np.zeros_like(increment)
-        for b in model.blocks:
-            smooth(
-                smoothed,
-                increment,
-                state.particles,
-                scratch.stencil,
-                b.shape,
-                model.strides,
-                b.lo,
-                b.hi,
-            )
+        smooth(model, state, scratch, smoothed, increment)
         reflect_sum(model.conditions, scratch, smoothed)
         divide_by_mass(smoothed, grid.mass, len(smoothed))
         increment -= smoothed

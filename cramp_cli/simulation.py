@@ -6,9 +6,10 @@ from time import perf_counter
 
 import numpy as np
 
-from cramp_cli.cracks.fields import find_rows, make_scratch
+from cramp_cli.cracks.fields import find_rows, list_cracks
 from cramp_cli.cracks.tips import sample_tips
 from cramp_cli.output.summary import Summary
+from cramp_cli.scratch import make_scratch
 from cramp_cli.state.failure import NumericalFailure
 from cramp_cli.state.health import check_health
 from cramp_cli.state.measures import FIELDS, momentum, sum_energies
@@ -121,18 +122,27 @@ class Books:
 
 
 def simulate(
-    deck, model, state, outputs, reporter, *, profile=False, keeper=None, remembered=None
+    deck,
+    model,
+    state,
+    outputs,
+    reporter,
+    *,
+    threads=1,
+    profile=False,
+    keeper=None,
+    remembered=None,
 ) -> Summary:
     """Run a model to its end and write what the deck asks for.
 
-    outputs: where rows and frames go; reporter: who is told how it goes
+    outputs: where rows and frames go; reporter: who is told how it goes; threads: to share work
     keeper: writes checkpoints, may end the run by Stopped; remembered: what it kept of this loop
     when the state is that of a checkpoint
     returns: the outcome in a few numbers
     """
     begin, first = perf_counter(), 0.0  # the first step may compile: no measure of the others
     reporter.start(model.end_time, deck.title or "run", _facts(model, state))
-    run = _Run(deck, model, state, outputs, reporter, keeper)
+    run = _Run(deck, model, state, outputs, reporter, threads, keeper)
     with run.dumped_if_it_fails():
         if remembered:
             run.recall(remembered)
@@ -155,16 +165,17 @@ def simulate(
 class _Run:
     """What is due after a step."""
 
-    def __init__(self, deck, model, state, outputs, reporter, keeper):
+    def __init__(self, deck, model, state, outputs, reporter, threads, keeper):
         self.deck, self.model, self.state = deck, model, state
         self.outputs, self.reporter, self.keeper = outputs, reporter, keeper
-        self.scratch, self.watch = make_scratch(model, state), Stopwatch()
+        self.scratch, self.watch = make_scratch(model, state, threads), Stopwatch()
         self.books, self.begun_at = Books(state, deck.solver), state.step
         self.history_due = Due(deck.output.history_every, model.dt)
         self.tips_due = Due(deck.fracture.every, model.dt)
         self.frame_due = Due(deck.output.every, model.dt)
         self.tips, self.written = [], set()
         self.told = set()
+        list_cracks(model, state, self.scratch)
         locate_particles(model, state, self.scratch)
         find_rows(model, state, self.scratch)
 

@@ -17,7 +17,7 @@ from cramp_cli.boundary.conditions import (
     repeat_images,
 )
 from cramp_cli.cracks.contact import FIRST, LAST, UPDATE, touch
-from cramp_cli.cracks.fields import find_openings, find_rows, move_paths
+from cramp_cli.cracks.fields import find_openings, find_rows, list_cracks, move_paths
 from cramp_cli.grid_velocity import find_strain_velocity, find_update_velocity
 from cramp_cli.transfer import sums
 from cramp_cli.transfer.on_grid import advance_momentum, find_acceleration, find_velocity
@@ -28,6 +28,7 @@ def step(model, state, scratch, watch) -> None:
     dt, time, conditions, laws = model.dt, state.time, model.conditions, model.contact
 
     with watch("1 where the particles are"):
+        list_cracks(model, state, scratch)
         sums.locate_particles(model, state, scratch)
 
     with watch("2 on which side of the cracks"):
@@ -49,7 +50,7 @@ def step(model, state, scratch, watch) -> None:
         if model.scheme.before:
             hold_momenta(conditions, scratch, time)
             find_strain_velocity(model, state, scratch)
-            sums.strain(model, state, scratch, model.scheme.before, fresh=True)
+            sums.strain(model, state, scratch, model.scheme.before, last=not model.scheme.after)
         grid.momentum[:count] = grid.saved[:count]
 
     with watch("5 forces"):
@@ -70,13 +71,14 @@ def step(model, state, scratch, watch) -> None:
         sums.move(model, state, scratch)
 
     with watch("8 cracks move"):
-        find_velocity(grid, count)
-        move_paths(model, state, scratch)
+        if state.paths.crack_count:
+            find_velocity(grid, count)  # of the first order, whatever moved the particles
+            move_paths(model, state, scratch)
 
     with watch("9 strain after the motion"):  # none of the step in USF, half in USAVG, all in USL
         if model.scheme.again:
+            grid.momentum[:count] = grid.saved[:count]  # of the moved particles
             find_openings(model, state, scratch)
-            sums.sum_momentum_again(model, state, scratch)
             reflect_sum(conditions, scratch, grid.momentum)
             touch(grid, rows, laws, model.strides, dt, LAST)
             repeat_images(conditions, scratch, grid.momentum)
@@ -84,7 +86,7 @@ def step(model, state, scratch, watch) -> None:
         book_tractions(model, scratch, state, time, 0.5 * dt)
         if model.scheme.after:
             find_strain_velocity(model, state, scratch)
-            sums.strain(model, state, scratch, model.scheme.after, fresh=not model.scheme.before)
+            sums.strain(model, state, scratch, model.scheme.after, last=True)
 
     state.time += dt
     state.step += 1

@@ -7,10 +7,10 @@ from pathlib import Path
 import yaml
 
 from cramp_cli.build import build
-from cramp_cli.cracks.fields import make_scratch
 from cramp_cli.cracks.tips import sample_tips
 from cramp_cli.deck.deck import check_deck
 from cramp_cli.schema.mistake import Source
+from cramp_cli.scratch import make_scratch
 from cramp_cli.state.health import check_health
 from cramp_cli.state.measures import sum_energies
 from cramp_cli.step import step

@@ -6,10 +6,12 @@ from pathlib import Path
 import yaml
 
 from cramp_cli.build import build
-from cramp_cli.cracks.fields import make_scratch
+from cramp_cli.cracks.fields import find_rows, list_cracks
 from cramp_cli.deck.deck import check_deck
 from cramp_cli.schema.mistake import Source
+from cramp_cli.scratch import make_scratch
 from cramp_cli.step import step
+from cramp_cli.transfer.sums import locate_particles
 
 
 def read(deck, **overrides):
@@ -33,6 +35,13 @@ def advance(model, state, scratch, steps):
     """Take a number of time steps."""
     for _ in range(steps):
         step(model, state, scratch, lambda title: nullcontext())
+
+
+def locate(model, state, scratch):
+    """Find the rows that every particle sees, as the first paragraphs of a step do."""
+    list_cracks(model, state, scratch)
+    locate_particles(model, state, scratch)
+    find_rows(model, state, scratch)
 
 
 def merged(data, changes):

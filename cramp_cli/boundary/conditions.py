@@ -49,7 +49,7 @@ class MirrorPlane:
 class ParticleForce:
     """Forces on particles of one block: load times curve."""
 
-    particles: np.ndarray  # (n,)
+    particles: np.ndarray  # (n,) their numbers
     load: np.ndarray  # (n, dim) N
     shape: Any
     curve: Any
@@ -134,7 +134,7 @@ def reflect_mass_and_momentum(conditions, scratch) -> None:
     for plane, free in zip(conditions.mirrors, scratch.free, strict=True):
         m = plane.mirror
         reflect_mass(grid.mass, rows, m.crack, m.outside, m.inside)
-        double_on(grid.mass, rows, m.crack, m.on, free)
+        double_on(grid.mass.reshape(-1, 1), rows, m.crack, m.on, free)
         _reflect(m, free, rows, grid.momentum, add=True)
 
 
@@ -205,7 +205,8 @@ def book_tractions(model, scratch, state, time, duration) -> None:
     conserves energy.
     """
     for t in model.conditions.tractions:
-        power = traction_power(scratch.grid, scratch.stencil, t.faces, t.shape, model.strides)
+        places = (scratch.index, t.faces, t.shape, model.strides)
+        power = traction_power(scratch.grid, scratch.stencil, *places)
         state.books.external[0] += t.curve.value(time) * power * duration
 
 
@@ -220,8 +221,10 @@ def add_loads(model, scratch, time) -> None:
     conditions, strides, grid = model.conditions, model.strides, scratch.grid
     for f in conditions.forces:
         factor = f.curve.value(time)
-        sum_particle_force(grid, f.particles, f.load, scratch.stencil, f.shape, strides, factor)
+        chosen = scratch.index[f.particles]
+        sum_particle_force(grid, chosen, f.load, scratch.stencil, f.shape, strides, factor)
     for t in conditions.tractions:
-        add_traction(grid, scratch.stencil, t.faces, t.shape, strides, t.curve.value(time))
+        places = (scratch.index, t.faces, t.shape, strides)
+        add_traction(grid, scratch.stencil, *places, t.curve.value(time))
     if conditions.gravity:
         add_gravity(grid, scratch.row_count, conditions.body_force(time, len(strides)))

@@ -72,7 +72,7 @@ def reflect(field, rows, axis, crack, outside, inside, add):
 
 @kernel
 def double_on(field, rows, crack, on, free):
-    """Add the image's share to the rows on the plane, except along its crack."""
+    """Add the image's share to the rows on the plane, except along its crack; field: (rows, k)."""
     nodes = len(rows.first)
     for i in range(len(on)):
         row = on[i]
@@ -81,7 +81,8 @@ def double_on(field, rows, crack, on, free):
                 rows.crack[row - nodes, 0] == crack or rows.crack[row - nodes, 1] == crack
             )
             if not free[i] and not (beyond and crack >= 0):
-                field[row] *= 2.0
+                for d in range(field.shape[1]):
+                    field[row, d] *= 2.0
             row = rows.first[row] if row < nodes else rows.next[row - nodes]
 
 

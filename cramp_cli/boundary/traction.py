@@ -7,20 +7,20 @@ import numpy as np
 from cramp_cli.numerics.kernel import kernel
 from cramp_cli.numerics.tensor import dot, plus, times, vector
 from cramp_cli.shapes.shape import offsets, point_weights
-from cramp_cli.transfer.to_grid import add
+from cramp_cli.transfer.rows import add
 
 
 class Faces(NamedTuple):
     """Corners of loaded particle faces and the force that each carries under unit load."""
 
-    particle: np.ndarray  # (n,)
+    particle: np.ndarray  # (n,) numbers of particles
     corner: np.ndarray  # (n, dim) from the particle's centre, in cells
     force: np.ndarray  # (n, dim) traction times the corner's share of the face, N
 
 
 @kernel
-def add_traction(grid, stencil, faces, shape, strides, factor):
-    """Add factor times the face forces to the grid.
+def add_traction(grid, stencil, index, faces, shape, strides, factor):
+    """Add factor times the face forces to the grid; index: where the particle of a number is.
 
     The corner of a particle lies among the nodes of the particle, so its rows are the particle's.
     """
@@ -29,7 +29,7 @@ def add_traction(grid, stencil, faces, shape, strides, factor):
     entries, which, table, share = stencil.entries, stencil.which, stencil.table, stencil.share
     steps = offsets(strides, shape)
     for c in range(len(particle)):
-        p = particle[c]
+        p = index[particle[c]]
         S = point_weights(plus(vector(strides, local, p), 1.0, vector(strides, corner, c)), shape)
         f = times(vector(strides, load, c), factor)
         first, line = base[p], near[p]
@@ -42,7 +42,7 @@ def add_traction(grid, stencil, faces, shape, strides, factor):
 
 
 @kernel
-def traction_power(grid, stencil, faces, shape, strides):
+def traction_power(grid, stencil, index, faces, shape, strides):
     """Return the power of the face forces under unit load with the momenta of the grid (W)."""
     particle, corner, load = faces.particle, faces.corner, faces.force
     base, local, near = stencil.base, stencil.local, stencil.near
@@ -50,7 +50,7 @@ def traction_power(grid, stencil, faces, shape, strides):
     steps = offsets(strides, shape)
     power = 0.0
     for c in range(len(particle)):
-        p = particle[c]
+        p = index[particle[c]]
         S = point_weights(plus(vector(strides, local, p), 1.0, vector(strides, corner, c)), shape)
         f = vector(strides, load, c)
         first, line = base[p], near[p]

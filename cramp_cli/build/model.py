@@ -15,6 +15,7 @@ from cramp_cli.state.lattice import Lattice
 from cramp_cli.state.model import SCHEMES, Block, Model, State, TipNodes, no_energy
 from cramp_cli.state.particles import Particles, particles_at
 from cramp_cli.state.paths import EDGE, PLAIN, TIP, Paths, make_paths
+from cramp_cli.transfer.bands import band_starts, sorted_by_cell
 from cramp_cli.transfer.update import Flip, Fmpm, Xpic
 
 GEOMETRIES = {"plane_strain": PlaneStrain, "plane_stress": PlaneStress}
@@ -58,7 +59,8 @@ def build(deck: Deck) -> tuple[Model, State]:
         ),
     )
     reactions = np.zeros((len(conditions.names), len(lattice.cells)))
-    return model, State(0.0, 0, particles, paths, no_energy(), reactions)
+    bands = [b.lo + band_starts(lattice, particles.position[b.lo : b.hi]) for b in blocks]
+    return model, State(0.0, 0, particles, paths, no_energy(), reactions, np.array(bands))
 
 
 def build_lattice(deck: Deck) -> Lattice:
@@ -130,8 +132,8 @@ def _fill(deck: Deck, lattice: Lattice, seeds) -> tuple[tuple[Block, ...], Parti
         ]
         points = np.concatenate([seeds[n] for n in bodies])
         owner = np.concatenate([np.full(len(seeds[n]), n) for n in bodies])
-        cell = np.floor((points - lattice.lower) / lattice.width).astype(int)
-        order = np.lexsort((points[:, 0], points[:, 1], cell[:, 0], cell[:, 1]))
+        points, owner = points[by_place := np.lexsort(points.T)], owner[by_place]
+        order = sorted_by_cell(lattice, points)
         section, half = deck.materials[material], (0.5 / per_cell,) * 2
         law, shape = _law(section), SHAPES[deck.solver.shape](half)
         blocks.append(Block(start, start + len(points), law, shape, material, section.density))

@@ -38,8 +38,12 @@ def sum_displacement(rows, particles, stencil, shape, strides, lo, hi):
         p = stencil.around[i]
         if p < lo or p >= hi:
             continue
+        start, line, shared = base[p], near[p], False
+        for k in range(len(steps)):
+            shared = shared or first[start + steps[k]] >= 0
+        if not shared:
+            continue
         S = weights(vector(strides, local, p), shape)
-        start, line = base[p], near[p]
         count = len(steps) if line < 0 else entries[line]
         for e in range(count):
             k, row, w = e, start + steps[e % len(steps)], m[p]

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from cramp_cli.numerics.kernel import kernel
+from cramp_cli.numerics.kernel import inlined_kernel, kernel
 from cramp_cli.state.paths import EDGE, TIP
 
 ON_CRACK = 1e-9  # a point closer to a crack than this (cells) lies on it
@@ -56,16 +56,20 @@ def double_area(ax, ay, bx, by, cx, cy):
     return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
 
 
-@kernel
+@inlined_kernel
 def off_crack(segments, cell, x, y, tolerance):
     """Return a point moved a hair below the segment it lies on, if it lies on one."""
     ends, entry = segments.ends, segments.head[cell]
     while entry >= 0:
         s = segments.item[entry]
         dx, dy = ends[s, 2] - ends[s, 0], ends[s, 3] - ends[s, 1]
-        size = np.hypot(dx, dy)
+        cross = abs(dx * (y - ends[s, 1]) - dy * (x - ends[s, 0]))
+        if cross > tolerance * (abs(dx) + abs(dy)):  # most points are far from most segments
+            entry = segments.next[entry]
+            continue
+        size = np.sqrt(dx * dx + dy * dy)
         along = ((x - ends[s, 0]) * dx + (y - ends[s, 1]) * dy) / size
-        away = abs(dx * (y - ends[s, 1]) - dy * (x - ends[s, 0])) / size
+        away = cross / size
         if away < tolerance and tolerance < along < size - tolerance:
             hair = HAIR / ON_CRACK * tolerance
             return x + hair * dy / size, y - hair * dx / size
@@ -73,7 +77,7 @@ def off_crack(segments, cell, x, y, tolerance):
     return x, y
 
 
-@kernel
+@inlined_kernel
 def off_vertex(ends, down, s, x, y, tolerance):
     """Return a point moved a hair below the crack if it lies on an end of segment `s`."""
     if abs(x - ends[s, 0]) < tolerance and abs(y - ends[s, 1]) < tolerance:
@@ -83,18 +87,20 @@ def off_vertex(ends, down, s, x, y, tolerance):
     return x, y
 
 
-@kernel
+@inlined_kernel
 def crosses(ends, down, s, px, py, nx, ny, tolerance):
     """Return the side of p (+1 above, -1 below) if p -> n crosses segment `s`, else 0.
 
     tolerance: distance within which a point lies on the segment's line (m)
     """
     ax, ay, bx, by = ends[s, 0], ends[s, 1], ends[s, 2], ends[s, 3]
-    px, py = off_vertex(ends, down, s, px, py, tolerance)
-    nx, ny = off_vertex(ends, down, s, nx, ny, tolerance)
     limit = tolerance * (abs(bx - ax) + abs(by - ay))
-    p_above = double_area(ax, ay, bx, by, px, py) > limit
-    n_above = double_area(ax, ay, bx, by, nx, ny) > limit
+    p_area, n_area = double_area(ax, ay, bx, by, px, py), double_area(ax, ay, bx, by, nx, ny)
+    if min(abs(p_area), abs(n_area)) <= limit:  # only then can one of them lie on a vertex
+        px, py = off_vertex(ends, down, s, px, py, tolerance)
+        nx, ny = off_vertex(ends, down, s, nx, ny, tolerance)
+        p_area, n_area = double_area(ax, ay, bx, by, px, py), double_area(ax, ay, bx, by, nx, ny)
+    p_above, n_above = p_area > limit, n_area > limit
     if p_above == n_above:
         return 0
     a_left = double_area(nx, ny, px, py, ax, ay) >= 0.0
@@ -104,7 +110,7 @@ def crosses(ends, down, s, px, py, nx, ny, tolerance):
     return 1 if p_above else -1
 
 
-@kernel
+@inlined_kernel
 def crossed_cracks(segments, cell, px, py, nx, ny, tolerance):
     """Return the first two cracks that the line p -> n crosses.
 

@@ -8,34 +8,31 @@ from cramp_cli.cracks.crossing import list_segments, make_segments
 from cramp_cli.cracks.rows import (
     assign_rows,
     clear_shared,
-    find_particles_near_cracks,
     forget_rows,
+    list_particles_near_cracks,
 )
 from cramp_cli.cracks.tip_nodes import EXTENSION, cut_along_cracks, mark_tip_nodes
-from cramp_cli.shapes.shape import offsets, support
+from cramp_cli.shapes.shape import support
 from cramp_cli.state.grid import make_grid
-from cramp_cli.state.model import Scratch
-from cramp_cli.state.stencil import make_lists, make_stencil
+from cramp_cli.state.stencil import make_lists
 
 
-def make_scratch(model, state) -> Scratch:
-    """Return scratch arrays large enough for the cracks as they are."""
-    lattice, n = model.lattice, len(state.particles.mass)
-    dim = len(lattice.cells)
-    segment_count = max(len(state.paths.point) - state.paths.crack_count, 1)
-    per_particle = len(offsets(model.strides, model.blocks[0].shape))
-    listed = min(n, 40 * segment_count + 64)
-    grid, rows = make_grid(lattice.node_count, dim, 16 * segment_count + 64)
-    return Scratch(
-        grid=grid,
-        rows=rows,
-        stencil=make_stencil(n, dim, per_particle, listed),
-        segments=make_segments(lattice.node_count, segment_count, 24 * segment_count + 64),
-    )
+def list_cracks(model, state, scratch) -> None:
+    """List the segments of all cracks by cell, and mark the cells near them."""
+    if not state.paths.crack_count:
+        return
+    lattice = model.lattice
+    growth = 1 if model.tip_nodes is None else 2
+    beyond = EXTENSION * lattice.width * smooth_cracks(model)
+    zone = 2 * support(model.blocks[0].shape) + growth - 1
+    grid = (lattice.cells, lattice.width, lattice.lower, model.strides)
+    while not list_segments(scratch.segments, state.paths, *grid, growth, zone, beyond):
+        wanted = 2 * int(scratch.segments.used[2])
+        scratch.segments = make_segments(lattice.node_count, len(scratch.segments.crack), wanted)
 
 
 def find_rows(model, state, scratch) -> None:
-    """Find the rows of all particles near cracks."""
+    """Find the rows of all particles near cracks; the particles must have been located."""
     if not state.paths.crack_count:
         return
     while not _rows_fit(scratch, state, model):
@@ -46,17 +43,7 @@ def _rows_fit(scratch, state, model) -> bool:
     """Try once; make room for what did not fit and return False."""
     lattice, strides, shape = model.lattice, model.strides, model.blocks[0].shape
     stencil, rows, segments, tips = scratch.stencil, scratch.rows, scratch.segments, model.tip_nodes
-    grid = (lattice.cells, lattice.width, lattice.lower, strides)
-    blended = tips is not None
-    growth = 2 if blended else 1
-    smooth = smooth_cracks(model)
-    beyond = EXTENSION * lattice.width * smooth
-    zone = 2 * support(shape) + growth - 1
-    if not list_segments(segments, state.paths, *grid, growth, zone, beyond):
-        wanted = 2 * int(segments.used[2])
-        scratch.segments = make_segments(lattice.node_count, len(segments.crack), wanted)
-        return False
-    listed = find_particles_near_cracks(stencil, segments, strides, len(stencil.entries))
+    listed = list_particles_near_cracks(stencil, state.bands, scratch.report, len(stencil.entries))
     if listed > len(stencil.entries):
         per_particle = stencil.which.shape[1] // 2
         scratch.stencil = stencil._replace(
@@ -64,10 +51,11 @@ def _rows_fit(scratch, state, model) -> bool:
         )
         return False
     forget_rows(rows)
-    if blended:
-        mark_tip_nodes(rows, state.paths, segments, smooth, *grid)
+    if tips is not None:
+        grid = (lattice.cells, lattice.width, lattice.lower, strides)
+        mark_tip_nodes(rows, state.paths, segments, smooth_cracks(model), *grid)
     place = (strides, lattice.nodes, lattice.width, lattice.lower)
-    ramp = (tips.centre, tips.ramp) if blended else (0.0, 1.0)
+    ramp = (0.0, 1.0) if tips is None else (tips.centre, tips.ramp)
     position, paths = state.particles.position, state.paths
     assign_rows(stencil, rows, segments, paths, position, shape, *place, *ramp)
     if rows.count[0] > len(rows.node):
@@ -102,20 +90,19 @@ def find_openings(model, state, scratch) -> None:
 
 def move_paths(model, state, scratch) -> None:
     """Move all cracks with the solid."""
-    if state.paths.crack_count:
-        lattice, paths, tips = model.lattice, state.paths, model.tip_nodes
-        cut = np.ones(len(paths.point))
-        if tips is not None:
-            cut = cut_along_cracks(paths, smooth_cracks(model), lattice.width, *tips)
-        move_cracks(
-            paths,
-            cut,
-            scratch.grid,
-            scratch.rows,
-            scratch.segments,
-            lattice.cells,
-            lattice.width,
-            lattice.lower,
-            model.strides,
-            model.dt,
-        )
+    lattice, paths, tips = model.lattice, state.paths, model.tip_nodes
+    cut = np.ones(len(paths.point))
+    if tips is not None:
+        cut_along_cracks(cut, paths, smooth_cracks(model), lattice.width, *tips)
+    move_cracks(
+        paths,
+        cut,
+        scratch.grid,
+        scratch.rows,
+        scratch.segments,
+        lattice.cells,
+        lattice.width,
+        lattice.lower,
+        model.strides,
+        model.dt,
+    )

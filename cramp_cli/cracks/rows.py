@@ -11,29 +11,32 @@ import numpy as np
 
 from cramp_cli.cracks.crossing import ON_CRACK, crossed_cracks, off_crack
 from cramp_cli.cracks.tip_nodes import cut_share
-from cramp_cli.numerics.kernel import kernel
+from cramp_cli.numerics.kernel import inlined_kernel, kernel
 from cramp_cli.shapes.shape import node_steps, offsets
+from cramp_cli.state.stencil import AROUND, CLOSE, FAR
 
 
 @kernel
-def find_particles_near_cracks(stencil, segments, strides, listed_capacity):
+def list_particles_near_cracks(stencil, bands, report, listed_capacity):
     """List the particles that must test for cracks, and those that may see nodes with several rows.
 
+    bands: (blocks, bands + 1) first particle of each band; report: (blocks, bands, 3) of `locate`
     returns: number of particles to list, larger than `listed_capacity` if the table is too short
     """
-    base, local, near = stencil.base, stencil.local, stencil.near
-    listed, around = stencil.listed, stencil.around
-    head, zone = segments.head, segments.zone
+    near, listed, around = stencil.near, stencil.listed, stencil.around
     n_listed, n_around = 0, 0
-    for p in range(len(base)):
-        near[p] = -1
-        cell = base[p]
-        for d in range(len(strides)):
-            cell += int(np.floor(local[p, d])) * strides[d]
-        if zone[cell]:
-            around[n_around] = p
-            n_around += 1
-            if head[cell] >= 0:
+    for block in range(len(bands)):
+        for band in range(bands.shape[1] - 1):
+            if report[block, band, 2] == 0:
+                continue
+            for p in range(bands[block, band], bands[block, band + 1]):
+                if near[p] == FAR:
+                    continue
+                around[n_around] = p
+                n_around += 1
+                if near[p] == AROUND:
+                    continue
+                near[p] = CLOSE
                 if n_listed < listed_capacity:
                     near[p] = n_listed
                     listed[n_listed] = p
@@ -50,7 +53,7 @@ def forget_rows(rows):
     rows.count[:4] = 0
 
 
-@kernel
+@inlined_kernel
 def find_row(rows, node, a, side_a, b, side_b):
     """Return the row of `node` across cracks a and b (-1 for none) from the given sides, or -1."""
     if a < 0:
@@ -130,7 +133,7 @@ def _comes_first(rows, e, a, side_a, b, side_b):
     return old < (a, b, side_a, side_b)
 
 
-@kernel
+@inlined_kernel
 def join_row(rows, node, a, side_a, b, side_b):
     """Return the row of a pair that crosses cracks a and b from the given sides.
 
@@ -175,7 +178,7 @@ def _is_wrong(rows, node, crack, side):
     return False
 
 
-@kernel
+@inlined_kernel
 def add_normal(rows, row, crack, ends, s):
     """Add segment `s` of a crack, turned from above to below, to the normals of a row."""
     e = row - len(rows.first)
@@ -185,7 +188,7 @@ def add_normal(rows, row, crack, ends, s):
             rows.normal[e, slot, 1] += ends[s, 0] - ends[s, 2]
 
 
-@kernel
+@inlined_kernel
 def add_entry(stencil, line, k, row, share, bx, by):
     """Add an entry to the list of a particle."""
     e = stencil.entries[line]
@@ -195,7 +198,7 @@ def add_entry(stencil, line, k, row, share, bx, by):
     stencil.entries[line] = e + 1
 
 
-@kernel
+@inlined_kernel
 def give_row(stencil, rows, ends, line, k, node, crossed):
     """Give the pair of a particle and its node `k` the row of the cracks it crosses."""
     a, side_a, seg_a, b, side_b, seg_b, more = crossed
@@ -206,7 +209,7 @@ def give_row(stencil, rows, ends, line, k, node, crossed):
     add_entry(stencil, line, k, row, 1.0, 0.0, 0.0)
 
 
-@kernel
+@inlined_kernel
 def give_shares(stencil, rows, ends, line, k, node, crossed, cut, gx, gy):
     """Give the pair of a particle and its node `k` beside a tip two rows: cut and whole."""
     a, side_a, seg_a, b, side_b, seg_b, more = crossed

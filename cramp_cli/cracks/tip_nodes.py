@@ -20,6 +20,7 @@ from cramp_cli.numerics.kernel import kernel
 from cramp_cli.state.paths import TIP
 
 REACH = 5  # cells around a tip whose nodes are looked at
+FAR = 10.0  # cells along a crack that belong to a tip; all nodes that are looked at are nearer
 BEHIND = 3.0  # cells behind a tip within which a node may see a particle that is part cut
 # cells from the line of the crack beyond which no particle sees both sides of a node; a little more
 # than 2, or nodes of a crack on a grid line would be marked on one side and not on the other
@@ -29,8 +30,10 @@ EXTENSION = 3.0  # cells by which a tip is carried on to tell the sides ahead of
 
 
 @kernel
-def along_crack(point, first, last, tip, x, y):
+def along_crack(point, first, last, tip, x, y, far):
     """Return where a place lies from a tip: distance ahead along the crack and from it (m).
+
+    Only that part of the crack counts that is less than `far` (m) from the tip, along the crack.
 
     Behind the tip the first distance is negative and counts along the crack. Further: the segment
     that is nearest, counted from the first, and its unit vector towards the tip.
@@ -41,7 +44,7 @@ def along_crack(point, first, last, tip, x, y):
     ahead, nearest, segment, ex, ey = 0.0, inf, 0, 0.0, 0.0
     travelled = 0.0
     k = tip
-    while k != (last if tip == first else first):
+    while k != (last if tip == first else first) and travelled < far:
         ax, ay, bx, by = point[k, 0], point[k, 1], point[k + step, 0], point[k + step, 1]
         dx, dy = bx - ax, by - ay
         size = sqrt(dx * dx + dy * dy)
@@ -80,7 +83,7 @@ def cut_share(paths, tip, x, y, half, width, centre, ramp):
     crack = tip // 2
     first, last = paths.start[crack], paths.start[crack + 1] - 1
     at = first if tip % 2 == 0 else last
-    ahead, _, _, ex, ey = along_crack(paths.point, first, last, at, x, y)
+    ahead, _, _, ex, ey = along_crack(paths.point, first, last, at, x, y, FAR * width)
     reach = abs(ex) * half[0] + abs(ey) * half[1]
     behind = centre - ahead / width
     if behind - reach >= ramp:
@@ -96,10 +99,10 @@ def cut_share(paths, tip, x, y, half, width, centre, ramp):
 
 
 @kernel
-def cut_along_cracks(paths, smooth, width, centre, ramp):
-    """Return the cut share at all points of all cracks: 1 but beside smooth tips, (points,)."""
+def cut_along_cracks(cut, paths, smooth, width, centre, ramp):
+    """Set the cut share (points,) of all points of all cracks: 1 but beside smooth tips."""
     point, start = paths.point, paths.start
-    cut = np.ones(len(point))
+    cut[:] = 1.0
     for tip in range(2 * (len(start) - 1)):
         c, end = tip // 2, tip % 2
         if paths.ends[c, end] != TIP or not smooth[c]:
@@ -112,7 +115,6 @@ def cut_along_cracks(paths, smooth, width, centre, ramp):
                 dx, dy = point[k + step, 0] - point[k, 0], point[k + step, 1] - point[k, 1]
                 behind += sqrt(dx * dx + dy * dy)
             k += step
-    return cut
 
 
 @kernel
@@ -142,20 +144,20 @@ def mark_tip_nodes(rows, paths, segments, smooth, cells, width, lower, strides):
         for jj in range(max(j - REACH, 0), min(j + REACH + 1, cells[1]) + 1):
             for ii in range(max(i - REACH, 0), min(i + REACH + 1, cells[0]) + 1):
                 x, y = lower[0] + ii * width, lower[1] + jj * width
-                ahead, away, segment, _, _ = along_crack(point, first, last, at, x, y)
+                ahead, away, segment, _, _ = along_crack(point, first, last, at, x, y, FAR * width)
                 if ahead > -BEHIND * width and away < LATERAL * width:
                     node = ii * strides[0] + jj * strides[1]
                     other = rows.tip[node]
-                    if other < 0 or abs(ahead) < _distance_ahead(paths, other, x, y):
+                    if other < 0 or abs(ahead) < _distance_ahead(paths, other, x, y, width):
                         _mark(rows, segments, node, tip, first - c + segment, x, y, width)
 
 
 @kernel
-def _distance_ahead(paths, tip, x, y):
+def _distance_ahead(paths, tip, x, y, width):
     crack = tip // 2
     first, last = paths.start[crack], paths.start[crack + 1] - 1
     at = first if tip % 2 == 0 else last
-    return abs(along_crack(paths.point, first, last, at, x, y)[0])
+    return abs(along_crack(paths.point, first, last, at, x, y, FAR * width)[0])
 
 
 @kernel

@@ -38,7 +38,7 @@ def _dispatched(declaration, key_of_value, key_of_type, default=None):
     def call(first, *args):
         return bodies.get(key_of_value(first), default)(first, *args)
 
-    @overload(call, strict=False)
+    @overload(call, strict=False, jit_options={"forceinline": True})
     def resolve(first, *args):
         return bodies.get(key_of_type(first), default)
 

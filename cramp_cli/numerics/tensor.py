@@ -4,14 +4,15 @@ A vector has 2 or 3 components; a matrix is stored row by row (4 or 9); a symmet
 order xx, yy, zz, xy, yz, xz, of which a plane problem keeps the first four.
 """
 
-from math import atan2, cos, sin
+from math import atan2, cos, floor, sin
 
 from cramp_cli.numerics.dispatch import by_length
 
 __all__ = [
-    "add_outer", "apply", "determinant", "dot", "increment", "matrix", "outer", "outer_sum", "pick",
-    "plus", "product", "rotation_of", "scaled", "solid_strain", "symmetric", "times", "turn",
-    "vector", "vector_of", "work_of", "zero_matrix",
+    "add_outer", "apply", "columns", "determinant", "dot", "from_columns", "in_cells",
+    "increment", "matrix", "outer", "outer_sum", "pick", "plus", "product", "rotation_of",
+    "scaled", "solid_strain", "symmetric", "times", "turn", "vector", "vector_of", "whole",
+    "within", "work_of", "zero_matrix",
 ]  # fmt: skip
 
 
@@ -35,6 +36,39 @@ def shifted(a, s):
 @shifted.implement(1)
 def _(a, s):
     return (a[0] + s,)
+
+
+@by_length
+def in_cells(x, lower, width):
+    """Return the place x (m) counted in cells from the lower corner of the grid."""
+    return ((x[0] - lower[0]) / width,) + in_cells(x[1:], lower[1:], width)
+
+
+@in_cells.implement(1)
+def _(x, lower, width):
+    return ((x[0] - lower[0]) / width,)
+
+
+@by_length
+def whole(x):
+    """Return the whole numbers not above those of the tuple x."""
+    return (int(floor(x[0])),) + whole(x[1:])
+
+
+@whole.implement(1)
+def _(x):
+    return (int(floor(x[0])),)
+
+
+@by_length
+def within(first, count, limits):
+    """Return whether `count` whole numbers from each of `first` on lie between 0 and its limit."""
+    return 0 <= first[0] <= limits[0] - count and within(first[1:], count, limits[1:])
+
+
+@within.implement(1)
+def _(first, count, limits):
+    return 0 <= first[0] <= limits[0] - count
 
 
 @by_length
@@ -139,6 +173,11 @@ def times(v, number):
     """Return the vector `v` times a number."""
 
 
+@times.implement(1)
+def _(v, number):
+    return (v[0] * number,)
+
+
 @times.implement(2)
 def _(v, number):
     return (v[0] * number, v[1] * number)
@@ -232,6 +271,38 @@ def _(g, T):
         T[3] * g[0] + T[1] * g[1] + T[4] * g[2],
         T[5] * g[0] + T[4] * g[1] + T[2] * g[2],
     )
+
+
+@by_length
+def columns(T):
+    """Return the columns of the plane part of a symmetric tensor of four, or of one of six."""
+
+
+@columns.implement(4)
+def _(T):
+    return ((T[0], T[3]), (T[3], T[1]))
+
+
+@columns.implement(6)
+def _(T):
+    return ((T[0], T[3], T[5]), (T[3], T[1], T[4]), (T[5], T[4], T[2]))
+
+
+@by_length
+def from_columns(c):
+    """Return the matrix with the given columns."""
+
+
+@from_columns.implement(2)
+def _(c):
+    return (c[0][0], c[1][0], c[0][1], c[1][1])
+
+
+@from_columns.implement(3)
+def _(c):
+    return (
+        c[0][0], c[1][0], c[2][0], c[0][1], c[1][1], c[2][1], c[0][2], c[1][2], c[2][2],
+    )  # fmt: skip
 
 
 @by_length

@@ -6,7 +6,6 @@ the slope (algorithm: Bardenhagen and Kober 2004).
 """
 
 from cramp_cli.numerics.dispatch import by_length, generic
-from cramp_cli.numerics.kernel import kernel
 from cramp_cli.numerics.tensor import outer, outer_sum
 
 
@@ -31,6 +30,33 @@ def node_steps(shape, stride):
 @generic
 def support(shape):
     """Return how many nodes a particle sees along an axis."""
+
+
+@by_length
+def first_nodes(x, shape, axis):
+    """Return the number of the first node along every axis from `axis` on; x: place in cells."""
+    return (first_node(shape, axis, x[0]),) + first_nodes(x[1:], shape, axis + 1)
+
+
+@first_nodes.implement(1)
+def _(x, shape, axis):
+    return (first_node(shape, axis, x[0]),)
+
+
+@by_length
+def factors(local, shape):
+    """Return values and slopes (per cell) at the nodes of every axis: a pair of tuples per axis."""
+
+
+@factors.implement(2)
+def _(local, shape):
+    return along_axis(shape, 0, local[0]), along_axis(shape, 1, local[1])
+
+
+@factors.implement(3)
+def _(local, shape):
+    x, y = along_axis(shape, 0, local[0]), along_axis(shape, 1, local[1])
+    return x, y, along_axis(shape, 2, local[2])
 
 
 @by_length
@@ -110,26 +136,3 @@ def _(strides, shape):
 def _(strides, shape):
     plane = outer_sum(node_steps(shape, strides[1]), node_steps(shape, strides[0]))
     return outer_sum(node_steps(shape, strides[2]), plane)
-
-
-@kernel
-def locate(stencil, position, shape, lower, strides, nodes, width, lo, hi):
-    """Find the nodes that particles lo..hi see: their base node and the place from it.
-
-    nodes: number of grid nodes along each axis
-    returns: the first particle that sees nodes outside the grid (or has no position), or -1
-    """
-    base, local = stencil.base, stencil.local
-    for p in range(lo, hi):
-        node = 0
-        for d in range(len(lower)):
-            x = (position[p, d] - lower[d]) / width
-            if not 0.0 <= x <= nodes[d]:
-                return p
-            first = first_node(shape, d, x)
-            if first < 0 or first + support(shape) > nodes[d]:
-                return p
-            local[p, d] = x - first
-            node += first * strides[d]
-        base[p] = node
-    return -1

@@ -89,6 +89,7 @@ class State:
     paths: Paths
     books: Books
     reactions: np.ndarray  # (named boundaries, dim) of the last step (N)
+    bands: np.ndarray  # (blocks, bands + 1) first particle of each band
 
 
 @dataclass
@@ -99,6 +100,11 @@ class Scratch:
     rows: Rows
     stencil: Stencil
     segments: Any
+    team: Any  # the threads
+    report: np.ndarray  # (blocks, bands, 3) what locating the particles found
+    per_band: np.ndarray  # (bands,) sums over the particles of a band
+    shared: list = field(default_factory=list)  # for each block: its particles, shared out
+    index: np.ndarray | None = None  # (n,) where the particle of each number is
     held: list | None = None  # rows held by each velocity condition, and their number
     free: list | None = None  # nodes of each symmetry plane that lie on its crack
 

@@ -4,6 +4,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+# `near` of a particle without a list: no crack about; nodes with several rows about; to be listed
+FAR, AROUND, CLOSE = -1, -2, -3
+
 
 class Stencil(NamedTuple):
     """Place of every particle in the grid at the start of the step, kept for the whole step.
@@ -18,7 +21,7 @@ class Stencil(NamedTuple):
 
     base: np.ndarray  # (n,) lowest node of the particle's nodes
     local: np.ndarray  # (n, dim) position from the base node, in cells
-    near: np.ndarray  # (n,) line of the lists of entries, or -1 where the rows are the nodes
+    near: np.ndarray  # (n,) line of the lists of entries; FAR or AROUND: the nodes are the rows
     entries: np.ndarray  # (listed,) number of entries of a listed particle
     which: np.ndarray  # (listed, 2 * nodes per particle) node of an entry, in the particle's order
     table: np.ndarray  # (listed, 2 * nodes per particle) row of an entry
@@ -32,11 +35,11 @@ class Stencil(NamedTuple):
 def make_stencil(n: int, dim: int, nodes_per_particle: int, listed: int) -> Stencil:
     """Return an empty stencil for `n` particles of which `listed` may lie near cracks."""
     return Stencil(
-        base=np.zeros(n, dtype=np.int64),
+        base=np.zeros(n, dtype=np.int32),
         local=np.zeros((n, dim)),
-        near=np.full(n, -1, dtype=np.int64),
-        listed=np.zeros(n, dtype=np.int64),
-        around=np.zeros(n, dtype=np.int64),
+        near=np.full(n, FAR, dtype=np.int32),
+        listed=np.zeros(n, dtype=np.int32),
+        around=np.zeros(n, dtype=np.int32),
         count=np.zeros(2, dtype=np.int64),
         **make_lists(nodes_per_particle, dim, listed),
     )

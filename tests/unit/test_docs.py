@@ -91,6 +91,15 @@ def test_decks_have_no_mistakes(page, tmp_path):
         assert read_deck(deck).warnings == []
 
 
+def test_every_deck_has_a_line_and_a_picture_in_the_gallery():
+    page = read(DOCS / "gallery.md")
+    decks = {path.name.removesuffix(".yaml") for path in (ROOT / "inputs").glob("*.yaml")}
+    decks = {name for name in decks if not name.endswith(".expect")}
+    assert set(re.findall(r"^\| `([\w.]+)` \|", page, re.MULTILINE)) == decks
+    drawn = set(re.findall(r"\]\(gallery/(\w+)\.png\)", page))
+    assert drawn == {name for name in decks if not name.endswith(".sweep")}
+
+
 def test_all_pages_can_be_reached_from_the_index():
     seen, left = set(), [DOCS / "index.md"]
     while left:

@@ -2,11 +2,10 @@
 
 import numpy as np
 import pytest
-from support import build_deck, read
+from support import build_deck, locate, read
 
 from cramp_cli.simulation import SETTLED, Books
 from cramp_cli.state.failure import NumericalFailure
-from cramp_cli.transfer.sums import locate_particles
 
 BLOCK = """
 cramp: 1
@@ -27,7 +26,7 @@ def test_a_particle_without_nodes_is_named(place, words, others):
     model, state, scratch = build_deck(BLOCK)
     state.particles.position[7] = place
     with pytest.raises(NumericalFailure) as caught:
-        locate_particles(model, state, scratch)
+        locate(model, state, scratch)
     assert words in str(caught.value)
     assert others not in str(caught.value)
 

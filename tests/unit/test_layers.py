@@ -16,13 +16,14 @@ LAYERS = (
     ("shapes", "materials"),
     ("transfer", "cracks"),
     ("boundary", "contact"),  # conditions act on the rows that cracks make
-    ("grid_velocity",),
+    ("grid_velocity", "scratch"),
     ("step",),
     ("deck", "output"),
     ("build", "study"),
     ("warm",),
     ("simulation", "warm"),
     ("commands", "streams"),
+    ("cli_sweep",),
     ("cli",),
     ("__main__",),
 )

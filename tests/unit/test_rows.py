@@ -2,16 +2,16 @@
 
 import numpy as np
 import pytest
-from support import build_deck
+from support import build_deck, locate
 
 from cramp_cli.cracks.crossing import make_segments
-from cramp_cli.cracks.fields import find_openings, find_rows
+from cramp_cli.cracks.fields import find_openings
 from cramp_cli.cracks.tip_nodes import cut_share
 from cramp_cli.shapes.shape import offsets, weights
 from cramp_cli.state.grid import make_grid
 from cramp_cli.state.paths import PLAIN, make_paths
 from cramp_cli.state.stencil import make_lists
-from cramp_cli.transfer.sums import locate_particles, sum_mass_and_momentum
+from cramp_cli.transfer.sums import sum_mass_and_momentum
 
 SQUARE = {
     "cramp": 1,
@@ -45,8 +45,7 @@ def sorted_out(cracks, shape="ugimp", moved=(0.0, 0.0), tips="sharp"):
 
 
 def find_all(model, state, scratch):
-    locate_particles(model, state, scratch)
-    find_rows(model, state, scratch)
+    locate(model, state, scratch)
     sum_mass_and_momentum(model, state, scratch)
     find_openings(model, state, scratch)
 

@@ -2,9 +2,8 @@
 
 import numpy as np
 import pytest
-from support import advance, build_deck
+from support import advance, build_deck, locate
 
-from cramp_cli.cracks.fields import find_rows
 from cramp_cli.cracks.tips import (
     block_at,
     crack_length,
@@ -13,7 +12,6 @@ from cramp_cli.cracks.tips import (
     site_of,
     tips_of,
 )
-from cramp_cli.transfer.sums import locate_particles
 
 PLATE = """
 cramp: 1
@@ -31,8 +29,7 @@ def sampled(*cracks, **sections):
     """Return the rows of all tips of a plate at rest, by crack and end."""
     named = [{"name": f"c{n}", **crack} for n, crack in enumerate(cracks)]
     model, state, scratch = build_deck(PLATE, cracks=named, **sections)
-    locate_particles(model, state, scratch)
-    find_rows(model, state, scratch)
+    locate(model, state, scratch)
     return {(row["crack"], row["tip"]): row for row in sample_tips(model, state, scratch)}
 
 
@@ -221,8 +218,7 @@ def test_the_contour_sees_the_whole_side_of_a_node(tips, y):
     """Beside a smooth tip a side has two rows; a uniform pull along the crack has J = 0."""
     crack = {"name": "c", **inner((0, y), (15.2, y), start="edge")}
     model, state, scratch = build_deck(PLATE, cracks=[crack], solver={"tips": tips})
-    locate_particles(model, state, scratch)
-    find_rows(model, state, scratch)
+    locate(model, state, scratch)
     particles = state.particles
     particles.F[:], particles.stress[:, 0], particles.work[:] = [1.01, 0, 0, 1], 0.02, 1e-4
     (row,) = sample_tips(model, state, scratch)

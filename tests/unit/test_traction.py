@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from support import build_deck
+from support import build_deck, locate
 
 from cramp_cli.boundary.conditions import add_loads, book_tractions
 from cramp_cli.boundary.traction import traction_power
-from cramp_cli.cracks.fields import find_openings, find_rows
-from cramp_cli.transfer.sums import locate_particles, sum_mass_and_momentum
+from cramp_cli.cracks.fields import find_openings
+from cramp_cli.transfer.sums import sum_mass_and_momentum
 from cramp_cli.transfer.to_grid import clear
 
 BEAM = """
@@ -41,8 +41,7 @@ def loaded(load, per_cell=2, shape="ugimp", time=0.0, cracks=()):
         "solver": {"shape": shape},
     }
     model, state, scratch = build_deck(BEAM, **sections)
-    locate_particles(model, state, scratch)
-    find_rows(model, state, scratch)
+    locate(model, state, scratch)
     sum_mass_and_momentum(model, state, scratch)
     find_openings(model, state, scratch)
     clear(scratch.grid.force, scratch.row_count)
@@ -99,7 +98,9 @@ def test_power_is_force_times_velocity():
     state.particles.velocity[:] = (0.7, 0.2)
     sum_mass_and_momentum(model, state, scratch)
     load = model.conditions.tractions[0]
-    power = traction_power(scratch.grid, scratch.stencil, load.faces, load.shape, model.strides)
+    power = traction_power(
+        scratch.grid, scratch.stencil, scratch.index, load.faces, load.shape, model.strides
+    )
     assert power == pytest.approx((3.0 * 0.7 - 5.0 * 0.2) * 2.0 * 0.3, rel=1e-13)
     book_tractions(model, scratch, state, 0.0, 0.1)
     assert state.books.external[0] == pytest.approx(0.1 * power, rel=1e-13)

@@ -4,14 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support import advance, build_deck
+from support import advance, build_deck, locate
 
 from cramp_cli.boundary.conditions import meet_rows
-from cramp_cli.cracks.fields import find_rows
 from cramp_cli.grid_velocity import find_update_velocity
 from cramp_cli.shapes.shape import offsets, weights
 from cramp_cli.transfer.on_grid import find_acceleration
-from cramp_cli.transfer.sums import locate_particles, sum_mass_and_momentum
+from cramp_cli.transfer.sums import sum_mass_and_momentum
 from cramp_cli.transfer.update import Flip, Fmpm, Xpic, moved
 
 STONE = """
@@ -100,8 +99,7 @@ def test_orders_are_the_series_of_what_a_round_trip_loses(kind, order):
     chance = np.random.default_rng(5)
     p = state.particles
     p.velocity[:] = chance.normal(size=p.velocity.shape)
-    locate_particles(model, state, scratch)
-    find_rows(model, state, scratch)
+    locate(model, state, scratch)
     sum_mass_and_momentum(model, state, scratch)
     meet_rows(model.conditions, scratch, model.lattice.width)
     grid, S = scratch.grid, _dense(model, scratch)

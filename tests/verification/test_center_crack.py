@@ -23,9 +23,9 @@ from verification.center_crack_table import (
 from verification.solutions import center_crack
 
 from cramp_cli.build import build
-from cramp_cli.cracks.fields import make_scratch
 from cramp_cli.cracks.tips import sample_tips
 from cramp_cli.deck.deck import read_deck
+from cramp_cli.scratch import make_scratch
 
 pytestmark = pytest.mark.verification
 

@@ -14,9 +14,9 @@ from runs import INPUTS, run_input
 from support import advance
 
 from cramp_cli.build import build
-from cramp_cli.cracks.fields import make_scratch
 from cramp_cli.cracks.tips import sample_tips
 from cramp_cli.deck.deck import read_deck
+from cramp_cli.scratch import make_scratch
 
 pytestmark = pytest.mark.verification
 

@@ -14,8 +14,8 @@ from support import advance
 from verification.solutions import incline_slide
 
 from cramp_cli.build import build
-from cramp_cli.cracks.fields import make_scratch
 from cramp_cli.deck.deck import read_deck
+from cramp_cli.scratch import make_scratch
 
 pytestmark = pytest.mark.verification
 

@@ -1,0 +1,145 @@
+"""One row per case: what varied, how it ended, and numbers taken from its tables."""
+
+import csv
+import io
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from cramp_cli.deck.sweep import Reduction, Study
+from cramp_cli.output.atomic import write_text
+from cramp_cli.output.exits import FolderError
+from cramp_cli.output.history import CRACK_COLUMNS, GROWTH_COLUMNS, HISTORY_COLUMNS
+from cramp_cli.schema.mistake import DeckError
+from cramp_cli.schema.section import unknown
+from cramp_cli.schema.unit_text import UnitError, base_units, split
+from cramp_cli.study.cases import Case, shown
+from cramp_cli.study.outcome import SweepFolder
+from cramp_cli.study.results import WORDS, Columns, by_tip, read_table
+
+Row = dict[str, object]
+TABLES = {"cracks": CRACK_COLUMNS, "history": HISTORY_COLUMNS, "growth": GROWTH_COLUMNS}
+
+
+def check_columns(study: Study) -> None:
+    """Raise DeckError with every reduction whose column is in no table."""
+    wrong = []
+    for number, one in enumerate(study.collect):
+        known = [name for name in TABLES[table_of(one)] if name not in WORDS]
+        if one.column not in known and not one.column.startswith("reaction_"):
+            message = unknown("column", one.column, known)
+            wrong.append(study.mistake(("collect", number, "column"), message))
+    if wrong:
+        raise DeckError(wrong)
+
+
+def table_of(one: Reduction) -> str:
+    """Return the table of a reduction: cracks if it has the column, else history."""
+    return one.table or ("cracks" if one.column in CRACK_COLUMNS else "history")
+
+
+def collect(
+    cases: Sequence[Case], folder: SweepFolder, wanted: Sequence[Reduction], wall_time: bool = False
+) -> list[Row]:
+    """Return a row for every case, in SI; cells that a case has no number for are missing.
+
+    wall_time: with the seconds each case took, which differ from run to run
+    """
+    rows = []
+    for case in cases:
+        outcome = folder.outcome(case.name)
+        varied = {path: in_si(value) for path, value in case.parameters.items()}
+        row: Row = {"case": case.name, **varied, "state": outcome.word}
+        row["exit_code"] = outcome.exit_code
+        if wall_time:
+            row["wall_time"] = outcome.wall_time
+        if outcome.word == "done":
+            for one in wanted:
+                row |= _reduced(folder.run(case.name), one)
+        rows.append(row)
+    return rows
+
+
+def in_si(value: object) -> object:
+    """Return a text such as '5 mm' as a number in SI, any other value of a deck as it is."""
+    if not isinstance(value, str):
+        return value
+    try:
+        number, unit = split(value)
+        return float(number * base_units(unit)[0]) if unit else value
+    except UnitError:
+        return value
+
+
+def _reduced(run: Path, one: Reduction) -> Row:
+    """Return the columns of one reduction: one for each tip, or one of the history."""
+    source = table_of(one)
+    table = read_table(run / f"{source}.csv")
+    if source == "history":
+        if one.column not in table:
+            raise FolderError(f"{run / 'history.csv'}: {unknown('column', one.column, table)}")
+        return {_name("", one): _take(table, one)}
+    tips = by_tip(table)
+    if one.tip is not None and source == "cracks" and one.tip not in tips:
+        raise FolderError(f"{run / 'cracks.csv'}: {unknown('tip', one.tip, tips)}")
+    chosen = [tip for tip in tips if one.tip in (None, tip)]
+    return {_name(tip, one): _take(tips[tip], one) for tip in chosen}
+
+
+def _name(tip: str, one: Reduction) -> str:
+    """Return the name of a column, such as `notch_end.K_I.max`."""
+    take = f"at_{one.time:g}" if one.take == "at" else one.take
+    growth = ["growth"] if one.table == "growth" else []
+    return ".".join([*([tip.replace(" ", "_")] if tip else []), *growth, one.column, take])
+
+
+def _take(table: Columns, one: Reduction) -> float | None:
+    """Return the number that a reduction takes from a column; None if there is none."""
+    values = table[one.column]
+    if one.take == "last":
+        return float(values[-1]) if len(values) else None
+    if one.take == "at":
+        return float(values[np.argmin(np.abs(table["time"] - one.time))]) if len(values) else None
+    known = values[np.isfinite(values)]
+    return float(getattr(known, one.take)()) if len(known) else None
+
+
+def to_csv(rows: Sequence[Row]) -> str:
+    """Return rows as CSV, numbers as they are read back bit for bit."""
+    names = _columns(rows)
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(names)
+    writer.writerows([_cell(row.get(name)) for name in names] for row in rows)
+    return text.getvalue()
+
+
+def _columns(rows: Sequence[Row]) -> list[str]:
+    """Return the names of all columns: what varies before the state, numbers after it."""
+    before: dict[str, None] = {}
+    after: dict[str, None] = {}
+    for row in rows:
+        names = list(row)
+        at = names.index("state") if "state" in names else len(names)
+        before |= dict.fromkeys(names[:at])
+        after |= dict.fromkeys(names[at:])
+    return [*before, *after]
+
+
+def write_results(path: Path, rows: Sequence[Row]) -> Path:
+    """Write rows into a CSV file."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    write_text(path, to_csv(rows))
+    return path
+
+
+def cases_table(cases: Sequence[Case]) -> str:
+    """Return names and parameters of cases as CSV, values as the study has them."""
+    return to_csv([{"case": case.name, **case.parameters} for case in cases])
+
+
+def _cell(value: object) -> str:
+    if value is None:
+        return ""
+    return repr(value) if isinstance(value, float) else shown(value)

@@ -1,0 +1,34 @@
+"""What a particle near a crack gives to its rows: the list of its entries (state/stencil.py)."""
+
+from cramp_cli.numerics.kernel import kernel
+from cramp_cli.numerics.tensor import pick, plus, times, vector_of
+
+
+@kernel
+def add(field, row, s, v):
+    """Add s v to a row of a (rows, dim) array."""
+    for d in range(len(v)):
+        field[row, d] += s * v[d]
+
+
+@kernel
+def entry_gradient(stencil, like, line, e, S, G):
+    """Return the gradient of the weight of entry `e`, that of its share included (per cell).
+
+    S, G: weights and gradients of the particle at its nodes
+    """
+    k, share = stencil.which[line, e], stencil.share[line, e]
+    return plus(times(pick(G, k), share), S[k], vector_of(like, stencil.bend, line, e))
+
+
+@kernel
+def first_line(stencil, p):
+    """Return the first line of the lists that belongs to particle `p` or a later one."""
+    low, high = 0, stencil.count[0]
+    while low < high:
+        middle = (low + high) // 2
+        if stencil.listed[middle] < p:
+            low = middle + 1
+        else:
+            high = middle
+    return low
