@@ -120,7 +120,7 @@ def test_a_checkpoint_of_another_version_is_refused(tmp_path, like, said):
     if said:
         with pytest.raises(PackingError, match=said):
             read_state(tmp_path / "a.h5", like)
-    with pytest.raises(PackingError, match=r"lacks field (reactions|books|paths|particles)"):
+    with pytest.raises(PackingError, match=r"lacks field \w+"):
         read_state(tmp_path / "a.h5", build_deck(CRACKED)[1])
 
 
