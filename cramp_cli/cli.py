@@ -488,7 +488,10 @@ def bench(
     ] = None,
     as_json: Json = False,
 ):
-    """Time fixed cases: million particle-steps per second, beside a plain loop ("yards")."""
+    """Time fixed cases, beside a plain loop.
+
+    In million particle-steps per second, and in "yards": times of the plain loop.
+    """
     from cramp_cli.commands import run_bench
 
     run_bench(threads, large, start, list(only), compare, as_json)
