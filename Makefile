@@ -7,7 +7,7 @@ READY := $(VENV)/.ready
 JOBS ?= 2
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
-.PHONY: help demo test verify lint format docs clean
+.PHONY: help demo test verify soak lint format docs clean
 .DEFAULT_GOAL := help
 
 help:  ## what can be made
@@ -30,10 +30,13 @@ demo: $(READY)  ## run a double cantilever beam and compare its J and K_I with a
 	@echo "or dcb.run/particles.xdmf and dcb.run/cracks.xdmf in ParaView."
 
 test: lint  ## lint and the fast tests (layer rule included)
-	$(BIN)/python -m pytest -n $(JOBS) -q -m "not slow"
+	$(BIN)/python -m pytest -n $(JOBS) -q -m "not slow and not soak"
 
 verify: $(READY)  ## the long tests against theory and papers
-	$(BIN)/python -m pytest -n $(JOBS) -q -m "slow or verification"
+	$(BIN)/python -m pytest -n $(JOBS) -q -m "(slow or verification) and not soak"
+
+soak: $(READY)  ## kills, full disks and fuzzed decks by the hundred: half an hour
+	$(BIN)/python -m pytest -q -m soak
 
 lint: $(READY)
 	$(BIN)/ruff check .

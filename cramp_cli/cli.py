@@ -36,6 +36,14 @@ class Progress(StrEnum):
     none = "none"
 
 
+class Resume(StrEnum):
+    """Whether a run goes on from a checkpoint."""
+
+    never = "never"
+    auto = "auto"
+    must = "must"
+
+
 class Picture(StrEnum):
     """Pictures that `plot` draws."""
 
@@ -89,13 +97,66 @@ def _show_version(asked: bool) -> None:
         raise typer.Exit
 
 
-def _size(text: str) -> int:
-    from cramp_cli.output.machine import parse_bytes
+def _parser(name: str):
+    """Return a parser of an option: the function of that name of output/machine.py."""
 
-    try:
-        return parse_bytes(text)
-    except ValueError as error:
-        raise typer.BadParameter(str(error)) from None
+    def parse(text):
+        from cramp_cli.output import machine
+
+        try:
+            return getattr(machine, name)(text)
+        except ValueError as error:
+            raise typer.BadParameter(str(error)) from None
+
+    return parse
+
+
+Threads = Annotated[int | None, typer.Option("-t", "--threads", min=1, help="Number of threads.")]
+Shown = Annotated[Progress, typer.Option(help="How to show progress.")]
+MaxMemory = Annotated[
+    int | None,
+    typer.Option(
+        parser=_parser("parse_bytes"), metavar="SIZE", help="Refuse to use more, like '8 GB'."
+    ),
+]
+MaxDisk = Annotated[
+    int | None,
+    typer.Option(
+        parser=_parser("parse_bytes"), metavar="SIZE", help="Refuse to write more, like '20 GB'."
+    ),
+]
+Profile = Annotated[bool, typer.Option("--profile", help="Say at the end where the time went.")]
+MaxWall = Annotated[
+    float | None,
+    typer.Option(
+        parser=_parser("parse_duration"),
+        metavar="TIME",
+        help="Stop with a checkpoint after so long, like '3h50m'.",
+    ),
+]
+CheckpointEvery = Annotated[
+    str,
+    typer.Option(
+        parser=_parser("parse_interval"),
+        metavar="TIME|STEPS",
+        help="Between checkpoints: '10m' of time, or '500' steps.",
+    ),
+]
+
+
+def _how(context, threads, progress, max_memory, max_disk, profile, max_wall):
+    """Return the options that `run` and `resume` share."""
+    from cramp_cli.commands import RunOptions
+
+    return RunOptions(
+        threads=threads,
+        progress=progress.value,
+        max_memory=max_memory,
+        max_disk=max_disk,
+        profile=profile,
+        max_wall=max_wall,
+        verbosity=context.obj.verbosity,
+    )
 
 
 @app.callback()
@@ -142,9 +203,7 @@ def run(
         Path | None, typer.Option("-o", "--output", help="Folder of the results [<deck>.run].")
     ] = None,
     sets: Sets = None,
-    threads: Annotated[
-        int | None, typer.Option("-t", "--threads", min=1, help="Number of threads.")
-    ] = None,
+    threads: Threads = None,
     overwrite: Annotated[
         bool, typer.Option("--overwrite", help="Replace an earlier run in that folder.")
     ] = False,
@@ -156,42 +215,55 @@ def run(
         bool, typer.Option("--dry-run", help="Check and estimate only; write nothing.")
     ] = False,
     strict: Strict = False,
-    progress: Annotated[Progress, typer.Option(help="How to show progress.")] = Progress.auto,
-    max_memory: Annotated[
-        int | None,
-        typer.Option(parser=_size, metavar="SIZE", help="Refuse to use more, like '8 GB'."),
-    ] = None,
-    max_disk: Annotated[
-        int | None,
-        typer.Option(parser=_size, metavar="SIZE", help="Refuse to write more, like '20 GB'."),
-    ] = None,
-    profile: Annotated[
-        bool, typer.Option("--profile", help="Say at the end where the time went.")
-    ] = False,
+    progress: Shown = Progress.auto,
+    max_memory: MaxMemory = None,
+    max_disk: MaxDisk = None,
+    profile: Profile = False,
+    resume: Annotated[
+        Resume, typer.Option(help="Go on from the newest checkpoint in that folder.")
+    ] = Resume.never,
+    max_wall: MaxWall = None,
+    checkpoint_every: CheckpointEvery = "10m",
 ):
     """Simulate a deck; show J and K of every tip.
 
     The deck is checked and its need of memory and disk estimated before anything is allocated.
     Prints the folder of the results on stdout; progress goes to stderr.
     """
-    from cramp_cli.commands import RunOptions, run_deck
+    from cramp_cli.commands import run_deck
 
-    options = RunOptions(
-        output,
-        (sets or []) + ([f"solver.end_time={end_time}"] if end_time else []),
-        threads,
-        overwrite,
-        dry_run,
-        strict,
-        progress.value,
-        max_memory,
-        max_disk,
-        profile,
-        context.obj.verbosity,
+    sets = (sets or []) + ([f"solver.end_time={end_time}"] if end_time else [])
+    how = _how(context, threads, progress, max_memory, max_disk, profile, max_wall)
+    options = how._replace(output=output, overrides=sets, overwrite=overwrite, dry_run=dry_run)
+    options = options._replace(
+        strict=strict, resume=resume.value, checkpoint_every=checkpoint_every
     )
     folder = run_deck(deck, options)
     if folder:
         print(folder)
+
+
+@app.command("resume")
+def resume_run(
+    context: typer.Context,
+    path: Run,
+    threads: Threads = None,
+    progress: Shown = Progress.auto,
+    max_memory: MaxMemory = None,
+    max_disk: MaxDisk = None,
+    profile: Profile = False,
+    max_wall: MaxWall = None,
+    checkpoint_every: CheckpointEvery = "10m",
+):
+    """Go on with a run that was stopped, killed or failed.
+
+    Rows and frames behind the newest sound checkpoint are cut off: the files become those of a run
+    that was never interrupted.
+    """
+    from cramp_cli.commands import resume_folder
+
+    how = _how(context, threads, progress, max_memory, max_disk, profile, max_wall)
+    print(resume_folder(path, how._replace(checkpoint_every=checkpoint_every)))
 
 
 @app.command()
@@ -276,6 +348,44 @@ def export(
 
     for written in write_all(path, output or path / "export", form.value):
         print(written)
+
+
+@app.command()
+def diff(
+    reference: Annotated[Path, typer.Argument(help="Folder of a run, or a CSV or HDF5 file.")],
+    new: Annotated[Path, typer.Argument(help="What is compared with it.")],
+    rtol: Annotated[
+        float, typer.Option(min=0.0, help="Share of the reference that may be off.")
+    ] = 5.5e-6,
+    atol: Annotated[
+        float | None,
+        typer.Option(min=0.0, help="What may be off besides [1e-10 of the largest in the column]."),
+    ] = None,
+    column: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME:RTOL[:ATOL]",
+            help="Other limits for one column; may be given often. RTOL inf: any value will do.",
+        ),
+    ] = None,
+    interpolate: Annotated[
+        bool,
+        typer.Option("--interpolate", help="Compare tables at the times of the reference."),
+    ] = False,
+    as_json: Json = False,
+):
+    """Compare two results; tell what differs, where and how far.
+
+    Exit code 1 if something differs.
+    """
+    from cramp_cli.commands import compare_results
+    from cramp_cli.output.atomic import plain
+    from cramp_cli.output.exits import DIFFERENT
+
+    report = compare_results(reference, new, rtol, atol, column or [], interpolate)
+    print(json.dumps(plain(report.as_json()), indent=2) if as_json else report)
+    if not report.alike:
+        raise typer.Exit(DIFFERENT)
 
 
 @app.command()
@@ -378,7 +488,10 @@ def bench(
     ] = None,
     as_json: Json = False,
 ):
-    """Time fixed cases: million particle-steps per second, beside a plain loop ("yards")."""
+    """Time fixed cases, beside a plain loop.
+
+    In million particle-steps per second, and in "yards": times of the plain loop.
+    """
     from cramp_cli.commands import run_bench
 
     run_bench(threads, large, start, list(only), compare, as_json)

@@ -5,10 +5,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+import typer
+
 from cramp_cli.output.machine import choose_threads, human_bytes, refuse_too_big
 from cramp_cli.output.tables import facts_text
 
-LARGEST_BUILT = 1.64e9  # bytes that `check` may use: those of five million particles
+LARGEST_BUILT = 3.3e8  # bytes that `check` may use: those of a million particles, two seconds
 NOT_BUILT = "too large to be built by check; what a load or boundary does not meet, run will tell"
 
 
@@ -26,41 +28,94 @@ class RunOptions(NamedTuple):
     max_disk: int | None = None  # bytes
     profile: bool = False
     verbosity: int = 1
+    resume: str = "never"  # or auto, must
+    max_wall: float | None = None  # s
+    checkpoint_every: tuple[int | None, float | None] = (None, 600.0)  # steps, seconds
 
 
 def run_deck(path: Path, options: RunOptions) -> Path | None:
     """Read, check, estimate, build and simulate a deck; return the folder of the results."""
-    threads = choose_threads(options.threads)
-    folder = options.output or Path(f"{path.stem}.run")
+    if options.overwrite and options.resume != "never":
+        raise typer.BadParameter("--overwrite begins anew, --resume goes on: give one of them")
+    options = options._replace(
+        output=options.output or Path(f"{path.stem}.run"), threads=choose_threads(options.threads)
+    )
     deck = load_deck(path, options.overrides, options.strict)
-    from cramp_cli.build import build, estimate  # late: imports numba
-    from cramp_cli.output.folder import RunFolder
-
-    needs = estimate(deck)
-    refuse_too_big(needs, folder, options.max_memory, options.max_disk)
+    needs = _fitting_needs(deck, options)
     if options.dry_run:
         say(facts_text(f"{path}: nothing wrong; a run would take", readable(needs)))
         return None
-    with RunFolder(folder, options.overwrite) as claimed:
-        model, state = build(deck)
-        _simulate(deck, model, state, claimed, threads, options)
-    return folder
+    _run(deck, options)
+    return options.output
 
 
-def _simulate(deck, model, state, folder, threads: int, options: RunOptions) -> None:
+def resume_folder(folder: Path, options: RunOptions) -> Path:
+    """Go on with the run in a folder, by the deck that it keeps there; return the folder."""
+    from cramp_cli.output.folder import refuse_no_run
+
+    refuse_no_run(folder)
+    options = options._replace(output=folder, resume="must")
+    return run_deck(folder / "resolved.yaml", options)
+
+
+def _fitting_needs(deck, options: RunOptions) -> dict:
+    """Return what a run takes; raise OutOfResources if that is too much.
+
+    What no memory holds is refused before numba is imported, which takes longer than all else.
+    """
+    from cramp_cli.deck.size import size_of
+
+    limits = options.output, options.max_memory, options.max_disk
+    refuse_too_big(size_of(deck)._asdict(), *limits)
+    from cramp_cli.build import estimate  # late: imports numba
+
+    needs = estimate(deck)
+    refuse_too_big(needs, *limits)
+    return needs
+
+
+def _run(deck, options: RunOptions) -> None:
+    """Claim the folder, find out where to begin, simulate."""
+    from cramp_cli.build import build
     from cramp_cli.deck.deck import to_yaml
+    from cramp_cli.output.folder import RunFolder
+    from cramp_cli.output.resume import find_start, is_finished
+    from cramp_cli.output.stop import Signs
+
+    folder, goes_on = options.output, options.resume != "never"
+    with (
+        Signs(folder, options.max_wall) as signs,
+        RunFolder(folder, options.overwrite or goes_on) as claimed,
+    ):
+        resolved = to_yaml(deck.resolved())
+        if goes_on and is_finished(folder, resolved):
+            say(f"{folder}: is done already; nothing is left to do")
+            return
+        model, state = build(deck)
+        start = find_start(folder, options.resume, resolved, state)
+        _simulate(deck, resolved, model, start, claimed, signs, options)
+
+
+def _simulate(deck, resolved: str, model, start, folder, signs, options: RunOptions) -> None:
+    from cramp_cli.output.keeper import Keeper
     from cramp_cli.output.log import Reporter
     from cramp_cli.output.run import RunOutputs
     from cramp_cli.simulation import simulate
 
-    texts = deck.source_text, to_yaml(deck.resolved())
-    with RunOutputs(folder, *texts, end_time=deck.solver.end_time, threads=threads) as outputs:
+    facts = {"end_time": deck.solver.end_time, "threads": options.threads, "places": start.places}
+    with RunOutputs(folder, deck.source_text, resolved, **facts) as outputs:
         reporter = Reporter(outputs.log, options.progress, options.verbosity)
         for warning in deck.warnings:
             outputs.log.write("warning", str(warning))
+        memory = {
+            "keeper": Keeper(outputs, signs, options.checkpoint_every, resolved),
+            "remembered": start.remembered,
+        }
         with reporter:
-            how = {"threads": threads, "profile": options.profile}
-            summary = simulate(deck, model, state, outputs, reporter, **how)
+            for level, text in [*start.remarks, *(("warning", text) for text in outputs.remarks)]:
+                reporter.message(level, text)
+            how = {"threads": options.threads, "profile": options.profile} | memory
+            summary = simulate(deck, model, start.state, outputs, reporter, **how)
         outputs.finish(summary)
         reporter.summary(summary)
 
@@ -112,6 +167,35 @@ def say_check(answer: dict) -> None:
     if answer["valid"]:
         verdict = f"{answer['file']}: no mistakes"
         print(facts_text(verdict, readable(answer.get("report", {}))))
+
+
+def compare_results(
+    reference: Path,
+    new: Path,
+    rtol: float,
+    atol: float | None,
+    columns: Sequence[str],
+    interpolate: bool,
+):
+    """Return how two results differ; `columns` are texts such as K_I:1e-3 or K_I:1e-3:10."""
+    from cramp_cli.study.compare import compare
+
+    others = dict(map(_tolerance, columns))
+    return compare(reference, new, rtol=rtol, atol=atol, columns=others, interpolate=interpolate)
+
+
+def _tolerance(text: str):
+    from cramp_cli.study.compare import Tolerance
+
+    name, *limits = text.split(":")
+    try:
+        tolerance = Tolerance(*map(float, limits))
+        if not limits or not all(limit >= 0.0 for limit in map(float, limits)):
+            raise ValueError
+    except (TypeError, ValueError):
+        message = f"'{text}' is no limit; write it like 'K_I:1e-3' or 'K_I:1e-3:10'"
+        raise typer.BadParameter(message) from None
+    return name, tolerance
 
 
 def warm_up() -> str:

@@ -18,6 +18,7 @@ from cramp_cli.transfer.sums import locate_particles
 
 HEALTH_EVERY = 20  # steps
 SETTLED = 50  # steps before the energy balance is judged: the first loads meet a body at rest
+DUES = ("history_due", "tips_due", "frame_due")
 COMPILING = 2.0  # s; a first step that takes longer has compiled kernels
 
 
@@ -60,6 +61,8 @@ class Books:
 
     solver: what the deck says about the solver, with the limits of the balance
     """
+
+    REMEMBERED = ("start", "largest", "error", "warned")  # by a checkpoint
 
     def __init__(self, state, solver):
         self.limits, self.update = solver.energy_error, solver.update
@@ -118,22 +121,40 @@ class Books:
         return f"{known}.\nUse flip, a ramp instead of a step, or a finer grid"
 
 
-def simulate(deck, model, state, outputs, reporter, *, threads=1, profile=False) -> Summary:
+def simulate(
+    deck,
+    model,
+    state,
+    outputs,
+    reporter,
+    *,
+    threads=1,
+    profile=False,
+    keeper=None,
+    remembered=None,
+) -> Summary:
     """Run a model to its end and write what the deck asks for.
 
     outputs: where rows and frames go; reporter: who is told how it goes; threads: to share work
+    keeper: writes checkpoints, may end the run by Stopped; remembered: what it kept of this loop
+    when the state is that of a checkpoint
     returns: the outcome in a few numbers
     """
     begin, first = perf_counter(), 0.0  # the first step may compile: no measure of the others
     reporter.start(model.end_time, deck.title or "run", _facts(model, state))
-    run = _Run(deck, model, state, outputs, reporter, threads)
-    run.after_step()
-    while state.time < model.end_time - 1e-9 * model.dt:
-        step(model, state, run.scratch, run.watch)
-        run.after_step()
-        first = first or run.first_step_took(perf_counter() - begin)
-        reporter.progress(state.step, state.time, perf_counter() - begin - first, run.headline())
-    run.last()
+    run = _Run(deck, model, state, outputs, reporter, threads, keeper)
+    with run.dumped_if_it_fails():
+        if remembered:
+            run.recall(remembered)
+        else:
+            run.after_step()
+        while state.time < model.end_time - 1e-9 * model.dt:
+            step(model, state, run.scratch, run.watch)
+            run.after_step()
+            first = first or run.first_step_took(perf_counter() - begin)
+            wall = perf_counter() - begin - first
+            reporter.progress(state.step, state.time, wall, run.headline())
+        run.last()
     wall = perf_counter() - begin
     if profile:
         reporter.message("info", run.watch.table())
@@ -144,9 +165,9 @@ def simulate(deck, model, state, outputs, reporter, *, threads=1, profile=False)
 class _Run:
     """What is due after a step."""
 
-    def __init__(self, deck, model, state, outputs, reporter, threads):
+    def __init__(self, deck, model, state, outputs, reporter, threads, keeper):
         self.deck, self.model, self.state = deck, model, state
-        self.outputs, self.reporter = outputs, reporter
+        self.outputs, self.reporter, self.keeper = outputs, reporter, keeper
         self.scratch, self.watch = make_scratch(model, state, threads), Stopwatch()
         self.books, self.begun_at = Books(state, deck.solver), state.step
         self.history_due = Due(deck.output.history_every, model.dt)
@@ -164,6 +185,39 @@ class _Run:
             check_health(self.model, self.state)
             self._tell_strange_rows()
         self._write(self.history_due, self.tips_due, self.frame_due)
+        if self.keeper:
+            self.keeper.after_step(self.state, self.remember)
+
+    @contextmanager
+    def dumped_if_it_fails(self):
+        """Write all that is known of a state that turned out to be none."""
+        try:
+            yield
+        except NumericalFailure as failure:
+            with np.errstate(all="ignore"):  # what is wrong may be anywhere in it
+                position, fields = _points(self.state.particles, FIELDS)
+            where = self.outputs.failure(self.state, position, fields)
+            failure.add_note(f"the state is in {where}")
+            raise
+
+    def remember(self) -> dict:
+        """Return what a checkpoint keeps of this loop: all that does not follow from the state."""
+        check_health(self.model, self.state)  # a checkpoint of an ill state is of no use
+        return {
+            "books": {name: getattr(self.books, name) for name in Books.REMEMBERED},
+            "due": {name: getattr(self, name).count for name in DUES},
+            "tips": self.tips,
+            "written": sorted(self.written),
+            "told": sorted(self.told),
+        }
+
+    def recall(self, remembered) -> None:
+        """Go on from what `remember` gave."""
+        vars(self.books).update(remembered["books"])
+        for name, count in remembered["due"].items():
+            getattr(self, name).count = count
+        self.tips, self.told = remembered["tips"], set(remembered["told"])
+        self.written = {tuple(key) for key in remembered["written"]}
 
     def first_step_took(self, seconds: float) -> float:
         """Say how long it took to begin, and time the steps anew from here."""
@@ -218,10 +272,7 @@ class _Run:
     def _frame(self) -> None:
         state, output = self.state, self.deck.output
         if output.particles:
-            order = np.argsort(state.particles.id)
-            fields = {name: FIELDS[name](state.particles)[order] for name in output.fields}
-            fields["body"] = state.particles.body[order]
-            position = state.particles.position[order]
+            position, fields = _points(state.particles, output.fields)
             self.outputs.particle_frame(state.step, state.time, position, fields)
         if self.model.crack_names:
             paths = state.paths
@@ -242,6 +293,13 @@ class _Run:
             self.told.add(what)
             advice = "a finer grid near the cracks would help"
             self.reporter.message("warning", f"step {self.state.step}: {text}; {advice}")
+
+
+def _points(particles, names) -> tuple:
+    """Return positions and named fields of all particles, in the order of their numbers."""
+    order = np.argsort(particles.id)
+    fields = {name: FIELDS[name](particles)[order] for name in names}
+    return particles.position[order], fields | {"body": particles.body[order]}
 
 
 def _facts(model, state) -> dict:

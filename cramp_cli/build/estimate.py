@@ -1,11 +1,11 @@
 """What a run will take, told before anything is allocated."""
 
-from math import ceil, prod
+from math import ceil
 
 from cramp_cli.build.model import time_step, wave_speed
+from cramp_cli.deck.size import size_of
 
-STATE_BYTES = 16 * 8 + 12 * 8 + 13 * 8  # of a particle: vectors, tensors, numbers and its stencil
-ROW_BYTES = 14 * 8  # of a grid node
+CHECKPOINT_BYTES = 27 * 8  # of a particle; two are kept while the next is written
 FRAME_BYTES = {
     "stress": 36,
     "strain": 36,
@@ -21,18 +21,12 @@ PACKED = 0.6  # what compression leaves
 
 def estimate(deck) -> dict:
     """Return what a run takes: numbers for people, and `memory_bytes`, `disk_bytes`."""
-    box, width = deck.lattice_box(), deck.grid.cell
-    nodes = prod(cells + 1 for cells in box.cells)
-    particles = sum(
-        body.shape.outline().area * body.particles_per_cell**2 / width**2
-        for body in deck.bodies
-        if not body.hole
-    )
+    cells, particles, memory = size_of(deck)
     dt = time_step(deck)
     frames = deck.solver.end_time / deck.output.every + 1 if deck.output.particles else 0
     per_point = POINT_BYTES + sum(FRAME_BYTES[name] for name in deck.output.fields)
     facts = {
-        "cells": " x ".join(str(cells) for cells in box.cells),
+        "cells": " x ".join(str(count) for count in cells),
         "particles": round(particles),
         "time step": f"{dt:.6g} s",
         "steps": ceil(deck.solver.end_time / dt),
@@ -40,8 +34,8 @@ def estimate(deck) -> dict:
     for name, material in deck.materials.items():
         facts |= _material_facts(deck, name, material)
     return facts | {
-        "memory_bytes": int(particles * STATE_BYTES + nodes * ROW_BYTES),
-        "disk_bytes": int(frames * particles * per_point * PACKED),
+        "memory_bytes": memory,
+        "disk_bytes": int(particles * (frames * per_point * PACKED + 3 * CHECKPOINT_BYTES)),
     }
 
 

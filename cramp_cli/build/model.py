@@ -23,6 +23,7 @@ SHAPES = {"linear": Linear, "ugimp": UniformGimp}
 TIPS = {"smooth": TipNodes(centre=0.03, ramp=1.0), "sharp": None}
 ENDS = {"plain": PLAIN, "edge": EDGE, "tip": TIP}
 ON_PLANE = 1e-6  # cells
+MOST_STEPS = 1e12  # years of computing, long before time stops to move by round-off
 
 
 def build(deck: Deck) -> tuple[Model, State]:
@@ -73,7 +74,12 @@ def time_step(deck: Deck) -> float:
     used = {body.material for body in deck.bodies if not body.hole}
     speeds = [wave_speed(deck.materials[name]) for name in used]
     step = deck.solver.cfl * deck.grid.cell / max(speeds)
-    return min(step, deck.solver.dt or step)
+    step = min(step, deck.solver.dt or step)
+    if deck.solver.end_time / step > MOST_STEPS:
+        key = "cfl" if deck.solver.dt is None else "dt"
+        message = f"needs {deck.solver.end_time / step:.3g} time steps; no run comes to their end"
+        raise DeckError([deck.mistake(("solver", key), message)])
+    return step
 
 
 def wave_speed(material) -> float:

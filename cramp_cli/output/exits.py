@@ -16,6 +16,7 @@ CODE_OF = {
     "MemoryError": RESOURCES,
     "NumericalFailure": NUMERICS,
     "FloatingPointError": NUMERICS,
+    "Stopped": STOPPED,
     "KeyboardInterrupt": INTERRUPTED,
     "OSError": FILES,
 }
@@ -28,6 +29,10 @@ class FolderError(Exception):
 
 class OutOfResources(Exception):
     """A run would need more memory or disk than allowed or available."""
+
+
+class Stopped(Exception):
+    """A run was asked to end early; a checkpoint holds all of it."""
 
 
 def exit_code(error: BaseException) -> int:

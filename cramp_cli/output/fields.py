@@ -13,9 +13,15 @@ import numpy as np
 
 from cramp_cli.output.atomic import write_text
 from cramp_cli.output.exits import FolderError
+from cramp_cli.output.hdf5 import extended, opened
 from cramp_cli.output.xdmf import collection, grid
 
+OLD = ("earliest", "v110")  # VTK reads no points of newer files
 PACKED = {"compression": "gzip", "compression_opts": 1, "shuffle": True}
+
+
+class Unreadable(FolderError):
+    """A file of frames is missing or none of HDF5."""
 
 
 class Frame(NamedTuple):
@@ -31,23 +37,21 @@ class Frame(NamedTuple):
 class FrameWriter:
     """Writes `kind`.h5 and `kind`.xdmf in a folder, one frame after the other.
 
-    resume_at: keep the frames of older files up to this step and go on after them
     real: type of the floating point numbers on disk
+    keep: go on after so many frames of the files that are there, forget those behind them
     """
 
-    def __init__(
-        self, folder: Path, kind: str, real: str = "f4", resume_at: int | None = None
-    ) -> None:
+    def __init__(self, folder: Path, kind: str, real: str = "f4", keep: int | None = None) -> None:
         self.data = Path(folder) / f"{kind}.h5"
         self.index = Path(folder) / f"{kind}.xdmf"
         self.kind, self.real = kind, real
         self._grids: list[str] = []
-        self._count = 0
-        if resume_at is None:
+        self.count = 0  # frames so far
+        if keep is None:
             self.data.unlink(missing_ok=True)
             self.index.unlink(missing_ok=True)
-        elif self.data.exists():
-            self._take_up(resume_at)
+        else:
+            self._take_up(keep)
 
     def write(
         self,
@@ -64,8 +68,9 @@ class FrameWriter:
         lines: (n_lines + 1,) first point of every line; None if the points are particles
         """
         frame = _tidy(Frame(step, time, points, fields, lines), self.real)
-        with _open(self.data, "a") as file:
-            name = f"frame_{self._count:06d}"
+        size, parts = _size(frame)
+        with extended(self.data, "a", size, parts, libver=OLD) as file:
+            name = f"frame_{self.count:06d}"
             if name in file:  # left by a write that did not come to its end
                 del file[name]
             _store(file.create_group(name), frame)
@@ -73,17 +78,23 @@ class FrameWriter:
         write_text(self.index, collection(self.kind, self._grids))
 
     def _add(self, name: str, frame: Frame) -> None:
-        self._count += 1
+        self.count += 1
         if len(frame.points):  # VTK has no grid without points
             self._grids.append(grid(f"{self.data.name}:/{name}", frame))
 
-    def _take_up(self, step: int) -> None:
-        with _open(self.data, "a") as file:
-            for name in sorted(file):
-                if "time" in file[name].attrs and file[name].attrs["step"] <= step:
-                    self._add(name, _load(file[name]))
-                else:
-                    del file[name]
+    def _take_up(self, keep: int) -> None:
+        with _open_whole(self.data, "a") as file:
+            names = sorted(file)
+            whole = sum("time" in file[name].attrs for name in names[:keep])
+            if whole < keep:
+                raise FolderError(
+                    f"{self.data}: holds {whole} frames, the checkpoint knows of {keep}; the file "
+                    "was changed, start the run anew with --overwrite"
+                )
+            for name in names[:keep]:
+                self._add(name, _load(file[name], read=lambda data: data))
+            for name in names[keep:]:
+                del file[name]
         write_text(self.index, collection(self.kind, self._grids))
 
 
@@ -92,11 +103,7 @@ def read_frames(path: str | Path) -> Iterator[Frame]:
     data = Path(path).with_suffix(".h5")
     if not data.exists():
         raise FolderError(f"{data}: no such file")
-    try:
-        file = _open(data, "r")
-    except OSError as error:
-        raise FolderError(f"{data}: cannot be read as HDF5 ({error})") from None
-    with file:
+    with _open_whole(data, "r") as file:
         for name in sorted(file):
             if "time" in file[name].attrs:
                 yield _load(file[name])
@@ -106,7 +113,7 @@ def count_frames(path: str | Path) -> int:
     """Return how many complete frames a .h5 file holds; none if there is no file."""
     if not Path(path).exists():
         return 0
-    with _open(Path(path), "r") as file:
+    with opened(Path(path)) as file:
         return sum("time" in group.attrs for group in file.values())
 
 
@@ -117,11 +124,19 @@ def tensor_of_plane(values: np.ndarray) -> np.ndarray:
     return np.stack([xx, xy, zero, xy, yy, zero, zero, zero, zz], axis=1)
 
 
-def _open(path: Path, mode: str):
-    """Open without a lock of its own: whoever looks at the file must not stop the run."""
-    import h5py  # late: keeps `cramp --help` fast
+def _open_whole(path: Path, mode: str):
+    """Open a file that must be there and whole, or raise Unreadable."""
+    try:
+        return opened(path, mode if path.exists() else "r", libver=OLD)
+    except OSError as error:
+        raise Unreadable(f"{path}: cannot be read as HDF5 ({error})") from None
 
-    return h5py.File(path, mode, libver=("earliest", "v110"), locking=False)
+
+def _size(frame: Frame) -> tuple[int, int]:
+    """Return the bytes of a frame before compression, and how many data sets and groups it has."""
+    arrays = [frame.points, *frame.fields.values()]
+    lines = 0 if frame.offsets is None else frame.offsets.nbytes * 3
+    return sum(a.nbytes for a in arrays) + 12 * len(frame.points) + lines, len(arrays) + 4
 
 
 def _store(group, frame: Frame) -> None:
@@ -141,11 +156,13 @@ def _dataset(group, name: str, values: np.ndarray) -> None:
     group.create_dataset(name, data=values, **(PACKED if values.size else {}))
 
 
-def _load(group) -> Frame:
-    fields = {name: data[()] for name, data in group["fields"].items()} if "fields" in group else {}
-    offsets = group["offsets"][()] if "offsets" in group else None
+def _load(group, read=lambda data: data[()]) -> Frame:
+    """Return a frame of a file; `read` makes an array of a dataset, or leaves it on disk."""
+    stored = group.get("fields", {})
+    fields = {name: read(data) for name, data in stored.items()}
+    offsets = read(group["offsets"]) if "offsets" in group else None
     step, time = int(group.attrs["step"]), float(group.attrs["time"])
-    return Frame(step, time, group["points"][()], fields, offsets)
+    return Frame(step, time, read(group["points"]), fields, offsets)
 
 
 def polylines(offsets: np.ndarray) -> np.ndarray:
@@ -159,7 +176,8 @@ def _tidy(frame: Frame, real: str) -> Frame:
     offsets = None if frame.offsets is None else np.asarray(frame.offsets, dtype="i4")
     counts = {len(frame.points)} | (set() if offsets is None else {len(offsets) - 1})
     points = _components("points", frame.points, counts, real)
-    fields = {name: _components(name, v, counts, real) for name, v in frame.fields.items()}
+    names = sorted(frame.fields)  # the order in which HDF5 gives them back to a run that goes on
+    fields = {name: _components(name, frame.fields[name], counts, real) for name in names}
     return Frame(int(frame.step), float(frame.time), points.reshape(-1, 3), fields, offsets)
 
 

@@ -5,17 +5,20 @@ import json
 import os
 import shutil
 import socket
+from fnmatch import fnmatch
 from pathlib import Path
 
-from cramp_cli.output.atomic import write_text
+from cramp_cli.output.atomic import TEMPORARY, sweep, write_text
 from cramp_cli.output.exits import FolderError
+from cramp_cli.output.stop import STOP
 
 PROGRAM = "cramp"
 LOCK = ".lock"
+MANIFEST = "manifest.json"
 OUR_FILES = (
     "input.yaml",
     "resolved.yaml",
-    "manifest.json",
+    MANIFEST,
     "run.log",
     "status.json",
     "history.csv",
@@ -28,7 +31,7 @@ OUR_FILES = (
     "cracks.h5",
     "checkpoints",
     "failure",
-    "STOP",
+    STOP,
 )
 
 
@@ -66,9 +69,18 @@ class RunFolder:
         """Clear an older run away and keep both texts of the deck."""
         self.begun = True
         for name in OUR_FILES:
-            _remove(self.path / name)
+            if name != MANIFEST:  # it says that the folder is ours, also after a kill in here
+                _remove(self.path / name)
+        sweep(self.path)
         write_text(self.path / "input.yaml", deck_text)
         write_text(self.path / "resolved.yaml", resolved_text)
+
+    def go_on(self) -> None:
+        """Clear away what would stop or confuse the next part of a run."""
+        self.begun = True
+        _remove(self.path / STOP)
+        _remove(self.path / "failure")
+        sweep(self.path)
 
     def release(self) -> None:
         """Let others use the folder; one in which no run began leaves no trace."""
@@ -82,16 +94,29 @@ class RunFolder:
 
 def is_run_folder(path: Path) -> bool:
     """Tell whether a folder holds a run of this program."""
+    return run_status(path) is not None
+
+
+def run_status(path: Path) -> str | None:
+    """Return how the run in a folder ended, by its manifest, or None if it holds none."""
     try:
-        manifest = json.loads((path / "manifest.json").read_text(encoding="utf-8"))
+        manifest = json.loads((path / MANIFEST).read_text(encoding="utf-8"))
     except (OSError, ValueError):
-        return False
-    return isinstance(manifest, dict) and manifest.get("program") == PROGRAM
+        return None
+    ours = isinstance(manifest, dict) and manifest.get("program") == PROGRAM
+    return str(manifest.get("status")) if ours else None
+
+
+def refuse_no_run(path: Path) -> None:
+    """Raise if a folder holds no run of this program."""
+    if not is_run_folder(path):
+        reason = "not the folder of a run of cramp" if path.exists() else "no such folder"
+        raise FolderError(f"{path}: {reason}")
 
 
 def refuse_foreign(path: Path) -> None:
     """Raise if a folder holds files that no run of ours has written."""
-    names = set(os.listdir(path)) - {LOCK}
+    names = {name for name in os.listdir(path) if name != LOCK and not fnmatch(name, TEMPORARY)}
     if names and not is_run_folder(path):
         raise FolderError(
             f"{path}: holds files that are not a run of cramp (such as {min(names)}); "

@@ -2,6 +2,7 @@
 
 import csv
 import io
+import os
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -71,17 +72,22 @@ GROWTH_COLUMNS = {
 }
 
 
+TABLES = ("history", "cracks", "growth")
+
+
 class CsvTable:
     """A table on disk that is complete after every row.
 
     columns: names, in the order of the file
-    resume_at: keep the rows of an older table up to this step and go on after them
+    go_on: append to the table that is there, which must have these columns
     """
 
-    def __init__(self, path: Path, columns: Iterable[str], resume_at: int | None = None) -> None:
+    def __init__(self, path: Path, columns: Iterable[str], *, go_on: bool = False) -> None:
         self.path, self.columns = Path(path), tuple(columns)
-        old = self._rows_until(resume_at) if resume_at is not None else []
-        write_text(self.path, "".join([_line(self.columns), *old]))
+        if go_on:
+            self._refuse_others()
+        else:
+            write_text(self.path, _line(self.columns))
 
     def write(self, row: dict) -> None:
         """Append one row; a column without a value is written as nan."""
@@ -92,15 +98,29 @@ class CsvTable:
         with self.path.open("a", encoding="utf-8", newline="") as file:
             file.write(line)
 
-    def _rows_until(self, step: int) -> list[str]:
-        if not self.path.exists():
-            return []
-        lines = self.path.read_text(encoding="utf-8").splitlines(keepends=True)
-        if lines[:1] != [_line(self.columns)]:
-            raise FolderError(f"{self.path}: has other columns than this run writes")
-        whole = (line for line in lines[1:] if line.endswith("\n"))
-        at = self.columns.index("step")
-        return [line for line in whole if int(next(csv.reader([line]))[at]) <= step]
+    def _refuse_others(self) -> None:
+        with self.path.open(encoding="utf-8", newline="") as file:
+            if file.readline() != _line(self.columns):
+                raise FolderError(f"{self.path}: has other columns than this run writes")
+
+
+def cut_tables(folder: Path, sizes: dict[str, int]) -> None:
+    """Bring tables back to where they were: cut each to its size, remove the others.
+
+    sizes: bytes by name without .csv
+    """
+    for name in TABLES:
+        path = Path(folder) / f"{name}.csv"
+        if name not in sizes:
+            path.unlink(missing_ok=True)
+            continue
+        found = path.stat().st_size if path.exists() else 0
+        if found < sizes[name]:
+            raise FolderError(
+                f"{path}: has {found} bytes, the checkpoint knows of {sizes[name]}; the table was "
+                "changed, start the run anew with --overwrite"
+            )
+        os.truncate(path, sizes[name])
 
 
 def history_columns(names: Iterable[str]) -> dict[str, tuple[str, str]]:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from cramp_cli.output.exits import FolderError
 from cramp_cli.output.fields import count_frames
-from cramp_cli.output.folder import is_run_folder
+from cramp_cli.output.folder import refuse_no_run
 from cramp_cli.output.tables import duration
 
 WORDS = ("crack", "tip", "status")
@@ -14,9 +14,7 @@ WORDS = ("crack", "tip", "status")
 
 def describe(run: Path) -> dict:
     """Return manifest, status and number of frames of a run."""
-    if not is_run_folder(run):
-        reason = "not the folder of a run of cramp" if run.exists() else "no such folder"
-        raise FolderError(f"{run}: {reason}")
+    refuse_no_run(run)
     frames = {kind: count_frames(run / f"{kind}.h5") for kind in ("particles", "cracks")}
     status = _read(run / "status.json")
     manifest = _read(run / "manifest.json")
@@ -32,6 +30,7 @@ def facts(record: dict) -> dict[str, object]:
         "step": status.get("step"),
         "time": f"{status.get('time', 0.0):.6g} s of {status.get('end_time') or 0.0:.6g} s",
         "started": manifest["start"],
+        "parts": _parts(manifest.get("parts", [])),
         "wall time": duration(manifest["wall_time"] or status.get("wall_time")),
         "host": f"{manifest['host']}, {manifest['threads']} threads",
         "cramp": f"{manifest['versions']['cramp']} ({manifest['source_hash']})",
@@ -39,6 +38,12 @@ def facts(record: dict) -> dict[str, object]:
         "frames": ", ".join(f"{count} of {kind}" for kind, count in record["frames"].items()),
     }
     return {name: value for name, value in known.items() if value not in (None, "")}
+
+
+def _parts(parts: list[dict]) -> str:
+    """Return how often a run was taken up again, nothing if it ran in one piece."""
+    steps = ", ".join(str(part["step"]) for part in parts[1:])
+    return f"{len(parts)}, taken up at step {steps}" if steps else ""
 
 
 def last_tips(run: Path) -> list[dict]:

@@ -70,6 +70,26 @@ def parse_bytes(text: str) -> int:
     return int(number * (1024 ** list(FACTORS.values()).index(factor) if found[3] else factor))
 
 
+def parse_duration(text: str) -> float:
+    """Return the seconds of "3h50m", "90s" or "1d"."""
+    found = re.fullmatch(r"\s*(?:(\d+)d)?(?:(\d+)h)?(?:(\d+)m)?(?:(\d+)s)?\s*", text)
+    parts = [int(part or 0) for part in found.groups()] if found else [0]
+    if not any(parts):
+        raise ValueError(f"'{text}' is no duration; write it like '3h50m' or '90s'")
+    return float(sum(n * s for n, s in zip(parts, (86400, 3600, 60, 1), strict=True)))
+
+
+def parse_interval(text: str) -> tuple[int | None, float | None]:
+    """Return steps or seconds of "500" or "10m", None for the other."""
+    if text.strip().isdecimal() and int(text) > 0:
+        return int(text), None
+    try:
+        return None, parse_duration(text)
+    except ValueError:
+        message = f"'{text}' is no interval; write it like '10m' of time or '500' steps"
+        raise ValueError(message) from None
+
+
 def human_bytes(size: float) -> str:
     """Return a size as people say it."""
     for unit in ("B", "kB", "MB", "GB", "TB"):

@@ -1,6 +1,7 @@
 """Who ran what, where and with which outcome: manifest.json; and how far it is: status.json."""
 
 import hashlib
+import json
 import os
 import platform
 import socket
@@ -11,8 +12,8 @@ from pathlib import Path
 
 from cramp_cli.numerics.cache import source_hash
 from cramp_cli.output.atomic import write_json
-from cramp_cli.output.exits import DONE, INTERRUPTED, exit_code, one_line
-from cramp_cli.output.folder import PROGRAM
+from cramp_cli.output.exits import DONE, INTERRUPTED, STOPPED, exit_code, one_line
+from cramp_cli.output.folder import MANIFEST, PROGRAM
 from cramp_cli.output.machine import versions
 
 FORMAT = 1
@@ -20,24 +21,31 @@ SECONDS_BETWEEN_STATUS = 1.0
 
 
 class Manifest:
-    """The record of a run, on disk from its first moment and completed at its end."""
+    """The record of a run, on disk from its first moment and completed at its end.
 
-    def __init__(self, folder: Path, deck_text: str, threads: int) -> None:
-        self.path = Path(folder) / "manifest.json"
+    goes_on: what a checkpoint knows of the time before it: step and wall_time (s)
+    """
+
+    def __init__(
+        self, folder: Path, deck_text: str, threads: int, goes_on: dict | None = None
+    ) -> None:
+        self.path = Path(folder) / MANIFEST
         self._begun = time.monotonic()
+        earlier = json.loads(self.path.read_text(encoding="utf-8")) if goes_on else {}
         self.record = {
             "program": PROGRAM,
             "format": FORMAT,
             "versions": versions(),
             "source_hash": source_hash(),
-            "deck_sha256": hashlib.sha256(deck_text.encode()).hexdigest(),
+            "deck_sha256": earlier.get("deck_sha256", sha256(deck_text)),
             "argv": list(sys.argv),
             "directory": os.getcwd(),
             "host": socket.gethostname(),
             "system": platform.platform(),
             "process": os.getpid(),
             "threads": threads,
-            "start": now(),
+            "start": earlier.get("start", now()),
+            "parts": earlier.get("parts", []),
             "end": None,
             "status": "running",
             "exit_code": None,
@@ -45,7 +53,15 @@ class Manifest:
             "error": None,
             "summary": {},
         }
+        part = {"start": now(), "host": socket.gethostname(), "threads": threads}
+        self.record["parts"].append(part | {"step": goes_on["step"] if goes_on else 0})
+        self._before = goes_on["wall_time"] if goes_on else 0.0
         write_json(self.path, self.record)
+
+    @property
+    def wall_time(self) -> float:
+        """Seconds spent on this run, those of its earlier parts included."""
+        return self._before + time.monotonic() - self._begun
 
     def finish(self, summary: dict) -> None:
         """Write that the run came to its end."""
@@ -54,12 +70,11 @@ class Manifest:
     def fail(self, error: BaseException) -> None:
         """Write that the run ended early, and why."""
         code = exit_code(error)
-        status = "interrupted" if code == INTERRUPTED else "failed"
+        status = {INTERRUPTED: "interrupted", STOPPED: "stopped"}.get(code, "failed")
         self._close(status=status, exit_code=code, error=one_line(error))
 
     def _close(self, **outcome: object) -> None:
-        wall = time.monotonic() - self._begun
-        self.record.update(outcome, end=now(), wall_time=wall)
+        self.record.update(outcome, end=now(), wall_time=self.wall_time)
         write_json(self.path, self.record)
 
 
@@ -97,6 +112,11 @@ def seconds_left(wall: float, done: float, end: float | None) -> float | None:
     if end is None or done <= 0.0:
         return None
     return max(0.0, wall * (end - done) / done)
+
+
+def sha256(text: str) -> str:
+    """Return the SHA-256 of a text as hex digits."""
+    return hashlib.sha256(text.encode()).hexdigest()
 
 
 def now() -> str:

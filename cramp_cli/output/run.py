@@ -3,17 +3,22 @@
 import contextlib
 import traceback
 from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from cramp_cli.output.exits import INTERNAL, exit_code, one_line
-from cramp_cli.output.fields import FrameWriter
+from cramp_cli.output.atomic import sync
+from cramp_cli.output.checkpoint import write_state
+from cramp_cli.output.exits import INTERNAL, STOPPED, exit_code, one_line
+from cramp_cli.output.fields import FrameWriter, Unreadable
 from cramp_cli.output.folder import RunFolder
 from cramp_cli.output.history import (
     CRACK_COLUMNS,
     GROWTH_COLUMNS,
     HISTORY_COLUMNS,
     CsvTable,
+    cut_tables,
     history_columns,
     write_columns,
 )
@@ -29,6 +34,9 @@ class RunOutputs:
 
     Used with ``with``: an exception that passes is recorded in manifest.json, and one that is a
     fault of the program also in run.log.
+
+    places: what `places` gave to the checkpoint from which the run goes on; rows and frames behind
+    it are cut off
     """
 
     def __init__(
@@ -40,16 +48,24 @@ class RunOutputs:
         end_time: float | None = None,
         threads: int = 1,
         real: str = "f4",
+        places: dict | None = None,
     ) -> None:
-        folder.begin(deck_text, resolved_text)
-        self.path = folder.path
-        self.log = Log(self.path / "run.log")
-        self._real = real
-        self._manifest = Manifest(self.path, deck_text, threads)
-        self._status = Status(self.path, end_time)
+        self.path, self._real = folder.path, real
         self._tables: dict[str, CsvTable] = {}
         self._frames: dict[str, FrameWriter] = {}
-        write_columns(self.path, HISTORY_COLUMNS)
+        self._before = places["tables"] if places else {}  # tables to go on with
+        self.remarks: list[str] = []  # on files that could not be taken up
+        if places:
+            folder.go_on()
+            self._take_up(places)
+        self._manifest = Manifest(self.path, deck_text, threads, goes_on=places)
+        if not places:
+            folder.begin(deck_text, resolved_text)
+            write_columns(self.path, HISTORY_COLUMNS)
+        self.log = Log(self.path / "run.log")
+        self._status = Status(self.path, end_time)
+        if places:
+            self._status.record |= {"step": places["step"], "time": places["time"]}
         self._status.write()
 
     def __enter__(self) -> "RunOutputs":
@@ -103,6 +119,21 @@ class RunOutputs:
         fields = {"crack": np.arange(len(polylines))} | (fields or {})
         self._writer("cracks").write(step, time, points, fields, offsets)
 
+    def places(self, step: int, time: float) -> dict:
+        """Return how far all files are, once the disk holds them; a later run takes it again."""
+        tables = {name: self.path / f"{name}.csv" for name in {*self._before, *self._tables}}
+        for path in tables.values():
+            sync(path)
+        for writer in self._frames.values():
+            sync(writer.data)
+        return {
+            "step": step,
+            "time": time,
+            "wall_time": self._manifest.wall_time,
+            "tables": {name: path.stat().st_size for name, path in tables.items()},
+            "frames": {kind: writer.count for kind, writer in self._frames.items()},
+        }
+
     def finish(self, summary: Summary) -> None:
         """Record that the run came to its end, with its last numbers."""
         self._status.record |= {"step": summary.steps, "time": summary.time}
@@ -110,19 +141,55 @@ class RunOutputs:
         self._status.write()
         self._manifest.finish(summary._asdict())
 
+    def failure(self, state: Any, points: np.ndarray, fields: dict[str, np.ndarray]) -> Path:
+        """Write a state that is none to the folder failure/ and return it.
+
+        The same as a checkpoint, to compute with, and as a frame, to look at; what a full disk can
+        not take is left out.
+        """
+        where = self.path / "failure"
+        with contextlib.suppress(OSError):
+            where.mkdir(exist_ok=True)
+            FrameWriter(where, "particles", "f8").write(state.step, state.time, points, fields)
+            write_state(where / f"step_{state.step:012d}.h5", state, {})
+        return where
+
     def fail(self, error: BaseException) -> None:
         """Record that the run ended early; nothing here may hide the error itself."""
         with contextlib.suppress(OSError):
-            self.log.write("error", _account(error))
+            level = "info" if exit_code(error) == STOPPED else "error"
+            self.log.write(level, _account(error))
             self._manifest.fail(error)
             self._status.record["status"] = self._manifest.record["status"]
             self._status.write()
-        error.add_note(f"see {self.path / 'run.log'}")
+        if exit_code(error) != STOPPED:  # that text says all
+            error.add_note(f"see {self.path / 'run.log'}")
 
     def _table(self, name: str, columns: Iterable[str]) -> CsvTable:
         if name not in self._tables:
-            self._tables[name] = CsvTable(self.path / f"{name}.csv", columns)
+            path, go_on = self.path / f"{name}.csv", name in self._before
+            self._tables[name] = CsvTable(path, columns, go_on=go_on)
         return self._tables[name]
+
+    def _take_up(self, places: dict) -> None:
+        """Bring all files back to where they were when a checkpoint was written."""
+        cut_tables(self.path, places["tables"])
+        for kind in ("particles", "cracks"):
+            keep = places["frames"].get(kind)
+            try:
+                writer = FrameWriter(self.path, kind, self._real, keep)
+            except Unreadable as error:
+                writer = self._without_earlier_frames(kind, error)
+            if keep is not None:
+                self._frames[kind] = writer
+
+    def _without_earlier_frames(self, kind: str, error: Unreadable) -> FrameWriter:
+        """Begin a new file of frames: a run must not be lost for its pictures."""
+        path = self.path / f"{kind}.h5"
+        if path.exists():
+            path.replace(path.with_suffix(".damaged"))
+        self.remarks.append(f"{error}; its frames are lost, later ones go into a new file")
+        return FrameWriter(self.path, kind, self._real)
 
     def _writer(self, kind: str) -> FrameWriter:
         if kind not in self._frames:

@@ -5,30 +5,12 @@ from types import ModuleType, SimpleNamespace
 
 import numpy as np
 import pytest
+from plate import PLATE
 
 from cramp_cli.__main__ import main
+from cramp_cli.deck.size import Size
 from cramp_cli.output.summary import Summary
 
-PLATE = """\
-cramp: 1
-title: Plate with an edge crack, pulled
-analysis: plane_strain
-grid: {lower: [-10 mm, -30 mm], upper: [50 mm, 30 mm], cell: 2 mm}
-materials:
-  glass: {law: elastic, density: 2500 kg/m^3, E: 70 GPa, nu: 0.2}
-bodies:
-  - name: plate
-    material: glass
-    shape: {type: rectangle, lower: [0, -20 mm], upper: [40 mm, 20 mm]}
-cracks:
-  - {name: notch, points: [[0, 0], [15.3 mm, 0]], start: edge, end: tip}
-boundary:
-  - {name: grip, where: {y: -20 mm}, fix: [y]}
-loads:
-  - {type: force, body: plate, where: {y: 20 mm}, total: [0, 10 kN], in_time: step}
-solver: {end_time: 20 us}
-output: {every: 5 us, fields: [stress, displacement]}
-"""
 TIP = {"crack": "notch", "tip": "end", "x": 0.0153, "y": 0.0, "J": 1.5, "K_I": 3e5, "K_II": 0.0}
 
 
@@ -53,6 +35,18 @@ def cramp(here, capsys):
 
 
 @pytest.fixture
+def cramp_here(cramp, here):
+    """Check a deck given as bytes: exit code and what is said."""
+
+    def check(data):
+        (here / "deck.yaml").write_bytes(data)
+        code, out, err = cramp("check", "deck.yaml")
+        return code, out + err
+
+    return check
+
+
+@pytest.fixture
 def solver(monkeypatch):
     """A solver that takes no time; set `error` and it ends with that error."""
     stub = SimpleNamespace(error=None, built=0, needs={"memory_bytes": 1000, "disk_bytes": 1000})
@@ -61,7 +55,7 @@ def solver(monkeypatch):
         stub.built += 1
         return "model", "state"
 
-    def simulate(deck, model, state, outputs, reporter, profile=False):
+    def simulate(deck, model, state, outputs, reporter, **more):
         reporter.start(deck.solver.end_time, deck.title, {"particles": 3})
         outputs.history({"step": 1, "time": 1e-6, "energy_error": 0.0})
         outputs.tips([{"step": 1, "time": 1e-6, **TIP, "status": "ok"}])
@@ -81,4 +75,6 @@ def solver(monkeypatch):
         module = ModuleType(name)
         module.__dict__.update(parts)
         monkeypatch.setitem(sys.modules, name, module)
+    size = Size((30, 30), 3, stub.needs["memory_bytes"])
+    monkeypatch.setattr("cramp_cli.deck.size.size_of", lambda deck: size)
     return stub

@@ -2,7 +2,6 @@
 
 import json
 import os
-import signal
 import subprocess
 import sys
 import time
@@ -12,17 +11,18 @@ import pytest
 import yaml
 
 import cramp_cli
-from cramp_cli.output.fields import read_frames
 from cramp_cli.state.failure import NumericalFailure
 from cramp_cli.study.templates import PACKAGE, template_folder, templates
 
 COMMANDS = (
     "run",
+    "resume",
     "check",
     "show",
     "schema",
     "info",
     "export",
+    "diff",
     "preview",
     "plot",
     "sweep",
@@ -92,6 +92,10 @@ def _seconds(line):
         ["run", "plate.yaml", "-t", "0"],
         ["run", "plate.yaml", "--progress", "loud"],
         ["export", "x", "--format", "docx"],
+        ["run", "plate.yaml", "--max-wall", "soon"],
+        ["run", "plate.yaml", "--overwrite", "--resume", "auto"],
+        ["run", "plate.yaml", "--checkpoint-every", "0"],
+        ["run", "plate.yaml", "--resume", "perhaps"],
         [],
     ],
 )
@@ -352,7 +356,7 @@ def test_export_prints_what_to_open(cramp, solver, here):
     assert (here / "tables/particles_000000.csv").exists()
 
 
-@pytest.mark.parametrize("command", ["info", "export", "plot", "report"])
+@pytest.mark.parametrize("command", ["info", "export", "resume", "plot", "report"])
 def test_what_is_no_run_is_named(cramp, here, command):
     for path in ("nowhere", here):
         code, _, err = cramp(command, path)
@@ -399,23 +403,6 @@ def test_two_runs_in_one_folder(here):
         first.kill()
     assert second.returncode == 4
     assert f"in use by process {first.pid} on" in second.stderr
-
-
-def test_an_interrupted_run_can_be_read(here):
-    words = [sys.executable, "-m", "cramp_cli", "-q", "run", "plate.yaml", "-s"]
-    with subprocess.Popen([*words, "solver.end_time=1"], stderr=subprocess.PIPE) as run:
-        deadline = time.monotonic() + 400.0
-        while not (here / "plate.run/cracks.xdmf").exists() and run.poll() is None:
-            assert time.monotonic() < deadline
-            time.sleep(0.05)
-        run.send_signal(signal.SIGINT)
-        _, err = run.communicate(timeout=300)
-    assert run.returncode == 130
-    assert err.decode() == "cramp: interrupted (see plate.run/run.log)\n"
-    manifest = json.loads((here / "plate.run/manifest.json").read_text())
-    assert (manifest["status"], manifest["exit_code"]) == ("interrupted", 130)
-    assert "interrupted" in shell("cramp info plate.run").stdout
-    assert len(list(read_frames(here / "plate.run/particles.xdmf"))) >= 1
 
 
 def test_a_sweep_runs_from_end_to_end(here):

@@ -113,10 +113,15 @@ def test_resume_drops_later_frames(tmp_path):
     writer = FrameWriter(tmp_path, "particles")
     for step in range(4):
         writer.write(step, 0.1 * step, *particles(3))
-    FrameWriter(tmp_path, "particles", resume_at=1).write(2, 0.9, *particles(5))
+    index = (tmp_path / "particles.xdmf").read_text()
+    FrameWriter(tmp_path, "particles", keep=4)
+    assert (tmp_path / "particles.xdmf").read_text() == index
+    FrameWriter(tmp_path, "particles", keep=2).write(2, 0.9, *particles(5))
     frames = list(read_frames(tmp_path / "particles.h5"))
     assert [(frame.step, len(frame.points)) for frame in frames] == [(0, 3), (1, 3), (2, 5)]
     assert len(moments(tmp_path / "particles.xdmf")) == 3
+    with pytest.raises(FolderError, match="holds 3 frames, the checkpoint knows of 4"):
+        FrameWriter(tmp_path, "particles", keep=4)
 
 
 @pytest.mark.parametrize(

@@ -23,6 +23,25 @@ def test_what_is_no_size_is_refused(text):
         machine.parse_bytes(text)
 
 
+def test_durations_and_intervals_as_people_write_them():
+    assert machine.parse_duration("3h50m") == 13800.0
+    assert machine.parse_duration("1d") == 86400.0
+    assert machine.parse_interval("10m") == (None, 600.0)
+    assert machine.parse_interval("500") == (500, None)
+
+
+@pytest.mark.parametrize("text", ["", "0s", "soon", "10", "m", "1m1h", "-5m", "1.5h"])
+def test_what_is_no_duration_is_refused(text):
+    with pytest.raises(ValueError, match="write it like '3h50m'"):
+        machine.parse_duration(text)
+
+
+@pytest.mark.parametrize("text", ["0", "-3", "0m", "5 steps", "²"])
+def test_what_is_no_interval_is_refused(text):
+    with pytest.raises(ValueError, match="write it like '10m'"):
+        machine.parse_interval(text)
+
+
 @pytest.mark.parametrize(("size", "text"), [(999, "999 B"), (25.0e9, "25 GB"), (2e17, "200 PB")])
 def test_sizes_as_people_read_them(size, text):
     assert machine.human_bytes(size) == text

@@ -13,6 +13,7 @@ from cramp_cli.output.history import (
     GROWTH_COLUMNS,
     HISTORY_COLUMNS,
     CsvTable,
+    cut_tables,
     history_columns,
     write_columns,
 )
@@ -49,18 +50,27 @@ def test_a_missing_value_is_nan_and_an_unknown_column_an_error(tmp_path):
         table.write({"step": 1, "d": 1, "c": 2})
 
 
-def test_resume_drops_later_rows_and_half_written_ones(tmp_path):
-    path = tmp_path / "t.csv"
+def test_tables_are_cut_to_where_they_were(tmp_path):
+    path = tmp_path / "history.csv"
     path.write_text("step,a\n1,1\n2,2\n3,3\n4,")
-    CsvTable(path, ("step", "a"), resume_at=2).write({"step": 3, "a": 9.0})
+    (tmp_path / "growth.csv").write_text("step\n")  # began after the checkpoint
+    cut_tables(tmp_path, {"history": len("step,a\n1,1\n2,2\n")})
+    CsvTable(path, ("step", "a"), go_on=True).write({"step": 3, "a": 9.0})
     assert path.read_text() == "step,a\n1,1\n2,2\n3,9\n"
+    assert not (tmp_path / "growth.csv").exists()
 
 
-def test_resume_refuses_other_columns(tmp_path):
+def test_a_table_shorter_than_it_was_is_refused(tmp_path):
+    (tmp_path / "history.csv").write_text("step,a\n1,1\n")
+    with pytest.raises(FolderError, match="has 11 bytes, the checkpoint knows of 15"):
+        cut_tables(tmp_path, {"history": 15})
+
+
+def test_going_on_refuses_other_columns(tmp_path):
     path = tmp_path / "t.csv"
     path.write_text("step,b\n")
     with pytest.raises(FolderError, match="other columns"):
-        CsvTable(path, ("step", "a"), resume_at=2)
+        CsvTable(path, ("step", "a"), go_on=True)
 
 
 def test_reactions_follow_the_fixed_columns():
