@@ -495,3 +495,34 @@ def bench(
     from cramp_cli.commands import run_bench
 
     run_bench(threads, large, start, list(only), compare, as_json)
+
+
+@app.command()
+def verify(
+    names: Annotated[
+        list[str] | None, typer.Argument(help="Cases [all of the effort].", metavar="NAME")
+    ] = None,
+    quick: Annotated[bool, typer.Option("--quick", help="Within a minute.")] = False,
+    full: Annotated[bool, typer.Option("--full", help="With the finest grids.")] = False,
+    update: Annotated[
+        bool, typer.Option("--update", help="Freeze what is found; refused out of a bound.")
+    ] = False,
+    report: Annotated[
+        Path | None, typer.Option("--report", help="Write a page in Markdown with pictures.")
+    ] = None,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", help="Keep the runs in this folder.")
+    ] = None,
+    threads: Threads = None,
+    as_json: Json = False,
+):
+    """Run decks that have a reference; tell how far off they are.
+
+    Exit code 1 if a number is out of its bound or has changed.
+    """
+    from cramp_cli.commands import verify_cases
+    from cramp_cli.output.exits import DIFFERENT
+
+    effort = "quick" if quick else "full" if full else "usual"
+    if not verify_cases(names or [], effort, update, report, output, threads, as_json):
+        raise typer.Exit(DIFFERENT)

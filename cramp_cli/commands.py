@@ -241,6 +241,50 @@ def table(found: dict, old: dict, head: str, row) -> str:
     return "\n".join([head, *(row(n, t, old.get(n)) for n, t in found["cases"].items())])
 
 
+def run_case(expectation, folder: Path, threads: int | None = None) -> Path:
+    """Run the deck of an expectation quietly into a folder and return that folder."""
+    how = {"overwrite": True, "progress": "none", "verbosity": 0, "threads": threads}
+    options = RunOptions(output=folder, overrides=expectation.settings, **how)
+    run_deck(expectation.deck_path, options)
+    return folder
+
+
+def verify_cases(
+    names: Sequence[str],
+    effort: str,
+    update: bool,
+    page: Path | None,
+    output: Path | None,
+    threads: int | None,
+    as_json: bool,
+) -> bool:
+    """Run cases, print what they give and how far off it is; return whether all are right."""
+    import json
+    from tempfile import TemporaryDirectory
+    from time import perf_counter
+
+    from cramp_cli.output.atomic import plain
+    from cramp_cli.study import verify
+
+    results, begun = [], perf_counter()
+    with TemporaryDirectory() as temporary:
+        for case in verify.chosen(names, effort):
+            run = run_case(case, (output or Path(temporary)) / case.name, threads)
+            results.append((case, verify.judge(case, run)))
+            if update:
+                verify.freeze(*results[-1])
+            say(f"{case.name}: {perf_counter() - begun:.0f} s")
+        if page:
+            from cramp_cli.study.verify_page import write_page
+
+            say(str(write_page(page, results, output or Path(temporary))))
+    found = [one for _, findings in results for one in findings]
+    wrong = [one for one in found if not one.passed]
+    answer = [one.as_json() for one in found]
+    print(json.dumps(plain(answer), indent=2) if as_json else verify.table(found))
+    return not wrong
+
+
 def readable(needs: dict) -> dict[str, object]:
     """Return an estimate as lines for people."""
     return {

@@ -4,9 +4,9 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, Field, PrivateAttr, ValidationError
+from pydantic import AfterValidator, Field, PrivateAttr
 
-from cramp_cli.schema.explain import explain
+from cramp_cli.schema.explain import checked
 from cramp_cli.schema.loader import read_source
 from cramp_cli.schema.mistake import DeckError, Mistake, Source
 from cramp_cli.schema.section import Count, Section, Wrong, one_of
@@ -201,19 +201,8 @@ def read_study(path: str | Path) -> Study:
     if not isinstance(source.data, dict):
         message = "a study is a list of sections such as 'deck: plate.yaml'"
         raise DeckError([source.mistake((), message)])
-    study = _checked(source)
+    study = checked(Study, source)
     study._source, study._folder = source, Path(path).parent
-    return study
-
-
-def _checked(source: Source) -> Study:
-    found = list(source.mistakes)
-    try:
-        study = Study.model_validate(source.data)
-    except ValidationError as failure:
-        found += [source.mistake(*error) for error in explain(failure, source.data)]
-    if found:
-        raise DeckError(found)
     return study
 
 

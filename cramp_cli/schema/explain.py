@@ -5,8 +5,8 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from cramp_cli.schema.mistake import Path, step_into
-from cramp_cli.schema.section import TAG, UNKNOWN, listed, meant_by
+from cramp_cli.schema.mistake import DeckError, Path, Source, step_into
+from cramp_cli.schema.section import TAG, UNKNOWN, Section, listed, meant_by
 from cramp_cli.schema.units import shown
 
 MOST = 1000  # mistakes told of one deck
@@ -33,6 +33,18 @@ TYPES = {
     "model_attributes_type": "must be a section of keys such as {key: value}",
     "string_pattern_mismatch": "must start with a letter and hold only letters, digits, _ and -",
 }
+
+
+def checked(section: type[Section], source: Source) -> Any:
+    """Return the section that the data of a source stands for, or raise all its mistakes."""
+    found = list(source.mistakes)
+    try:
+        right = section.model_validate(source.data)
+    except ValidationError as failure:
+        found += [source.mistake(*error) for error in explain(failure, source.data)]
+    if found:
+        raise DeckError(found)
+    return right
 
 
 def explain(failure: ValidationError, data: Any) -> list[tuple[Path, str, bool]]:
