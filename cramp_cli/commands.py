@@ -270,19 +270,20 @@ def verify_cases(
     with TemporaryDirectory() as temporary:
         for case in verify.chosen(names, effort):
             run = run_case(case, (output or Path(temporary)) / case.name, threads)
-            results.append((case, verify.judge(case, run)))
+            found = verify.judge(case, run)
             if update:
-                verify.freeze(*results[-1])
+                case = verify.freeze(case, found)
+                found = verify.judge(case, run)
+            results.append((case, found))
             say(f"{case.name}: {perf_counter() - begun:.0f} s")
         if page:
             from cramp_cli.study.verify_page import write_page
 
             say(str(write_page(page, results, output or Path(temporary))))
     found = [one for _, findings in results for one in findings]
-    wrong = [one for one in found if not one.passed]
     answer = [one.as_json() for one in found]
     print(json.dumps(plain(answer), indent=2) if as_json else verify.table(found))
-    return not wrong
+    return all(one.passed for one in found)
 
 
 def readable(needs: dict) -> dict[str, object]:

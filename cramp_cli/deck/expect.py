@@ -51,6 +51,7 @@ class Entry(Section):
     reference: float | None = Field(None, description="the number of theory or paper")
     within: float | None = Field(None, gt=0, description="how far from it is right")
     aim: float | None = Field(None, gt=0, description="how far from it we want to be")
+    share_of: float | None = Field(None, gt=0, description="errors are told as shares of this")
     source: str | None = Field(None, description="where reference and bound come from")
 
     def wrong_values(self) -> Iterator[Wrong]:

@@ -35,6 +35,7 @@ class Finding(NamedTuple):
     error: float | None  # distance from the reference, from the curve
     within: float | None  # allowed
     aim: float | None
+    size: float  # errors are told as shares of it; 0 if there is nothing to take a share of
     frozen: float | None  # what this program gave before
     changed: bool  # from the frozen value, by more than is allowed
     source: str
@@ -131,6 +132,7 @@ def _finding(expectation: Expectation, path, entry: Entry, rows: Columns) -> Fin
         error=error,
         within=entry.within,
         aim=entry.aim,
+        size=1.0 if entry.curve else entry.share_of or abs(entry.reference or 0.0),
         frozen=entry.value,
         changed=entry.value is None or not abs(value - entry.value) <= allowed,
         source=entry.source or "",
@@ -159,8 +161,8 @@ def compared(expectation: Expectation, path, entry: Entry, rows: Columns):
     return time, rows[entry.column][inside], expected, peak
 
 
-def freeze(expectation: Expectation, findings: Iterable[Finding]) -> None:
-    """Write the numbers found as those that later versions must give.
+def freeze(expectation: Expectation, findings: Iterable[Finding]) -> Expectation:
+    """Write the numbers found as those that later versions must give; return what is written.
 
     Raises FolderError, and writes nothing, while a bound is not kept.
     """
@@ -174,27 +176,23 @@ def freeze(expectation: Expectation, findings: Iterable[Finding]) -> None:
         entry["value"] = one.value
     data["frozen"] = datetime.date.today().isoformat()
     write_text(expectation.path, HEAD + yaml.safe_dump(data, sort_keys=False, width=96))
+    return read_expectation(expectation.path)
 
 
 def row(one: Finding) -> list[str]:
-    """Return the cells of a finding: number, measured, reference, error, bound, aim, verdict.
-
-    Shares in percent, where there is something to take a share of.
-    """
-    scale = 1.0 if one.reference is None else abs(one.reference)
-    share = scale > 0.0 and one.error is not None
-    error, within, aim = (
-        _share(x / scale) if share and x is not None else number(x)
-        for x in (one.error, one.within, one.aim)
-    )
+    """Return the cells of a finding: number, measured, reference, error, bound, aim, verdict."""
+    errors = [_error(x, one.size) for x in (one.error, one.within, one.aim)]
     if one.reference is None and one.within is not None:
-        return [one.what, f"{error} rms", "curve", error, within, aim, one.verdict]
-    measured, reference = number(one.value), number(one.reference)
-    return [one.what, measured, reference, error, within, aim, one.verdict]
+        return [one.what, "over time", "curve", *errors, one.verdict]
+    return [one.what, number(one.value), number(one.reference), *errors, one.verdict]
 
 
-def _share(value: float) -> str:
-    return f"{100.0 * value:.2g} %"
+def _error(value: float | None, size: float) -> str:
+    """Return a distance as a share of a size, or as it is where there is none."""
+    if value is None or not size:
+        return number(value)
+    share = 100.0 * value / size
+    return "0 %" if share < 1e-6 else f"{share:.2g} %"
 
 
 COLUMNS = ("case", "number", "measured", "reference", "error", "bound", "aim", "")
