@@ -26,11 +26,17 @@ from cramp_cli.cracks.intensity import K_from_J, open_and_slide, opening_near_ti
 from cramp_cli.cracks.room import find_room
 from cramp_cli.materials.geometry import is_plane_stress
 from cramp_cli.materials.law import poisson_ratio, same_law, shear_modulus
+from cramp_cli.state.growth import BLEND, HELD, KINK
 from cramp_cli.state.paths import TIP
 
 BESIDE = 3.0  # cells behind a tip and beside the crack in which the sides are told apart
 USUAL, SMALLEST = 5.0, 2.5  # radius of the domain in cells, and the least that gives a number
 SPREAD = (0.8, 1.0, 1.2)  # radii that are compared, in shares of the radius
+STAGES = {
+    KINK: "kink: from the field around the corner",
+    BLEND: "kink: partly from the field around the corner",
+    HELD: "held: no room for a domain, the last load found",
+}
 LEAK = 0.02  # part of the domain that may be empty: particles are a coarse quadrature
 
 
@@ -101,7 +107,7 @@ def _sample(model, state, scratch, tip) -> dict:
         "y": float(place[1]),
         "angle": float(np.arctan2(now[1], now[0])),
         "length": crack_length(paths, tip.crack),
-        "speed": 0.0,
+        "speed": float(state.growth.speed[2 * tip.crack + tip.end]),
         "K_III": 0.0,
         "ctod_n": normal,
         "ctod_t": slide,
@@ -110,7 +116,9 @@ def _sample(model, state, scratch, tip) -> dict:
     row |= unmeasured | {"J_contour": nan, "K_I_contour": nan, "K_II_contour": nan}
     remarks = []
     if "domain" in model.fracture.methods:
-        measured, remark = _measure_domain(model, state, scratch, tip, site)
+        grown = state.growth.length[2 * tip.crack + tip.end] > 0.0
+        measure = _recall_growth if grown else _measure_domain
+        measured, remark = measure(model, state, scratch, tip, site)
         row |= measured
         remarks.append(remark)
     if "contour" in model.fracture.methods:
@@ -124,11 +132,18 @@ def site_of(model, state, tip) -> Site:
     """Return what the integrals around a tip need to know."""
     paths = state.paths
     place = paths.origin[tip.points[0]]
-    before = tip.direction(paths.origin)
+    return site_at(model, state, tip.crack, place, tip.direction(paths.origin))
+
+
+def site_at(model, state, crack, place, before) -> Site:
+    """Return what integrals around a place of a crack need to know.
+
+    place: in the undeformed body (m); before: unit vector along the crack there
+    """
     frame = TipFrame(tuple(place.tolist()), before, before)
     block = block_at(model, state.particles, place)
     gravity = model.conditions.body_force(state.time, len(model.strides))
-    half = bool(paths.mirror[tip.crack, 0] >= 0)
+    half = bool(state.paths.mirror[crack, 0] >= 0)
     if not half:
         frame = turned_with_solid(model, state.particles, frame)
         frame = between_particles(model, state.particles, frame)
@@ -190,6 +205,13 @@ def _measure_contour(model, state, scratch, tip, site, normal, slide):
     return {"J_contour": J, "K_I_contour": K_I, "K_II_contour": K_II}, ""
 
 
+def _recall_growth(model, state, scratch, tip, site):
+    """A tip that has grown has the load that drove it in the last step (tip_load.py)."""
+    k = 2 * tip.crack + tip.end
+    J, K_I, K_II = state.growth.load[k].tolist()
+    return {"J": J, "K_I": K_I, "K_II": K_II}, STAGES.get(int(state.growth.stage[k]), "")
+
+
 def _measure_domain(model, state, scratch, tip, site):
     paths, radii, width = state.paths, model.fracture.radii, model.lattice.width
     wanted, least = radii[0] if radii else USUAL * width, (1.0 - 1e-9) * SMALLEST * width
@@ -210,8 +232,7 @@ def _measure_domain(model, state, scratch, tip, site):
     others = [r for r in radii[1:] or [s * radius for s in SPREAD] if r <= room]
     spread = _spread(J, [domain_values(model, state.particles, site, r) for r in others])
     status = f"shrunk: {remark} within {wanted / width:.3g} cells" if remark else ""
-    closed = K_I < 0.0 and model.contact.kind[tip.crack] != IGNORE  # faces can not overlap
-    if closed or _is_closed(model, scratch, tip, paths.point[tip.points[0]], radius):
+    if is_closed(model, scratch, tip.crack, paths.point[tip.points[0]], radius, K_I):
         K_I, status = 0.0, "; ".join(filter(None, ["closed", status]))
     return {"J": J, "K_I": K_I, "K_II": K_II, "J_spread": spread}, status
 
@@ -224,9 +245,12 @@ def _spread(J, others) -> float:
     return (max(*values, J) - min(*values, J)) / abs(J) if J else 0.0
 
 
-def domain_values(model, particles, site, radius):
-    """Return J, K_I, K_II of a domain, and what spoils it: an empty text if it is full."""
-    inner = inner_radius(radius, model.lattice.width)
+def domain_values(model, particles, site, radius, inner=None):
+    """Return J, K_I, K_II of a domain, and what spoils it: an empty text if it is full.
+
+    inner: radius (m) within which the weight is 1; chosen if not given
+    """
+    inner = inner_radius(radius, model.lattice.width) if inner is None else inner
     sums, own = np.zeros(4), 0.0
     for b in model.blocks:
         part = integrate_domain(
@@ -252,11 +276,14 @@ def crack_length(paths, crack: int) -> float:
     return float(np.hypot(*np.diff(middle, axis=0).T).sum())
 
 
-def _is_closed(model, scratch, tip, place, radius) -> bool:
-    """Return whether most nodes on the crack within the domain have touching sides."""
-    if model.contact.kind[tip.crack] == IGNORE:
+def is_closed(model, scratch, crack, place, radius, K_I) -> bool:
+    """Return whether most nodes on a crack within a domain have touching sides, or K_I is negative.
+
+    place: centre of the domain now (m); faces that ignore each other are never closed
+    """
+    if model.contact.kind[crack] == IGNORE:
         return False
-    if model.contact.kind[tip.crack] == GLUED:
+    if model.contact.kind[crack] == GLUED or K_I < 0.0:  # faces can not overlap
         return True
     rows, lattice = scratch.rows, model.lattice
     n = int(rows.count[0])
@@ -266,7 +293,7 @@ def _is_closed(model, scratch, tip, place, radius) -> bool:
         lattice.lower
     )
     near = np.sum((at - place) ** 2, axis=1) < radius**2
-    mine = (rows.crack[:n, 0] == tip.crack) & near
+    mine = (rows.crack[:n, 0] == crack) & near
     if not mine.any():
         return False
     return bool(np.mean(rows.touching[:n, 0][mine] != OPEN) > 0.5)

@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from cramp_cli.state.grid import Grid, Rows
+from cramp_cli.state.growth import Growth
 from cramp_cli.state.lattice import Lattice
 from cramp_cli.state.particles import Particles
 from cramp_cli.state.paths import Paths
@@ -53,6 +54,7 @@ class Books(NamedTuple):
     external: np.ndarray  # work of loads and moving boundaries
     damping: np.ndarray  # taken by damping
     friction: np.ndarray  # work of friction on crack faces
+    fracture: np.ndarray  # spent on new crack surface
 
 
 @dataclass(frozen=True)
@@ -71,6 +73,7 @@ class Model:
     contact: Any  # ContactLaws
     conditions: Any  # boundary conditions and loads
     fracture: Any = None  # how J and K are evaluated
+    propagation: Any = None  # when, where to and how fast cracks grow; None: they do not
     tip_nodes: TipNodes | None = None  # None: cut at once, by the line test alone (the paper)
     strides: tuple = field(init=False)
 
@@ -89,6 +92,7 @@ class State:
     paths: Paths
     books: Books
     reactions: np.ndarray  # (named boundaries, dim) of the last step (N)
+    growth: Growth
 
 
 @dataclass
@@ -110,4 +114,4 @@ class Scratch:
 
 def no_energy() -> Books:
     """Return books in which nothing is written."""
-    return Books(np.zeros(1), np.zeros(1), np.zeros(1))
+    return Books(np.zeros(1), np.zeros(1), np.zeros(1), np.zeros(1))
