@@ -75,8 +75,8 @@ class Books:
         damping, friction = float(books.damping[0]), float(books.friction[0])
         fracture = float(books.fracture[0])
         work = float(books.external[0])
-        spent = kinetic + stored + friction + damping + fracture
-        self.largest = max(self.largest, kinetic + stored, abs(work), friction + damping + fracture)
+        spent = kinetic + stored + friction + damping
+        self.largest = max(self.largest, kinetic + stored, abs(work), friction + damping)
         self.error = (spent - self.start - work) / self.largest if self.largest else 0.0
         total = momentum(state.particles)
         return {

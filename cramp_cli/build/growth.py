@@ -33,7 +33,7 @@ def build_propagation(deck, blocks, geometry) -> Propagation | None:
         toward=(x / hypot(x, y), y / hypot(x, y)),
         fastest=section.fastest,
         longest=section.max_length or inf,
-        begin=_or_never(getattr(section, "begin", None)),
+        begin=_or_never(section.begin),
         steady=section.criterion == "steady_state",
     )
 
@@ -62,7 +62,7 @@ def _criterion(deck, section, material, hooke):
         "max_hoop_stress": lambda: MaxHoopStress(K_Ic),
         "max_energy_release_rate": lambda: MaxEnergyReleaseRate(K_Ic),
         "strain_energy_density": lambda: StrainEnergyDensity(K_Ic, hooke.kappa),
-        "empirical": lambda: Empirical(K_Ic, tough.K_IIc, section.p, section.q),
+        "empirical": lambda: Empirical(K_Ic, tough.K_IIc, section.p or 2.0, section.q or 2.0),
         "max_ctod": lambda: MaxCtod(_or_never(tough.delta_Ic), _or_never(tough.delta_IIc)),
         "critical_J": lambda: CriticalJ(G_Ic),
     }

@@ -22,7 +22,7 @@ from cramp_cli.state.growth import BLIND, HELD
 from cramp_cli.state.paths import EDGE, PLAIN
 
 CORNER = 0.4363  # a turn of more than this (25 degrees, rad) is a corner
-LEAST_MOVE = 0.02  # growth shorter than this (cells) waits before it begins a new piece
+LEAST_MOVE = 1e-3  # growth shorter than this (cells) waits before it begins a new piece
 ARREST = 10.0  # cells a Rayleigh wave travels before a tip at rest counts as arrested
 
 

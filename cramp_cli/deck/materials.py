@@ -23,7 +23,7 @@ NEEDED = {  # by a criterion of growth: one of each group
     "empirical": (("K_Ic", "G_Ic"), ("K_IIc",)),
     "max_ctod": (("delta_Ic", "delta_IIc"),),
     "critical_J": (("K_Ic", "G_Ic"),),
-    "steady_state": (),
+    "steady_state": (("K_Ic", "G_Ic"),),
 }
 
 

@@ -9,7 +9,6 @@ from pydantic import Field
 from cramp_cli.schema.section import Name, Section, Wrong, one_of
 from cramp_cli.schema.units import Length, Number, Time, Velocity, pair, shown
 
-WHEN = "when and where to a crack grows"
 HOW = "how fast a tip runs"
 
 
@@ -58,13 +57,26 @@ class Prescribed(Section):
 AnySpeed = one_of("law", Toughness, EnergyBalance, SpeedTable, Prescribed)
 
 
-class Propagation(Section):
-    """What all criteria have in common."""
+Criterion = Literal[
+    "max_hoop_stress",
+    "max_energy_release_rate",
+    "strain_energy_density",
+    "empirical",
+    "max_ctod",
+    "critical_J",
+    "steady_state",
+]
+ONLY_WITH = {"p": "empirical", "q": "empirical", "begin": "steady_state"}
 
+
+class PropagationSection(Section):
+    """When cracks grow, where to and how fast; without this section they do not."""
+
+    criterion: Criterion = Field(description="when a crack grows, and where to")
     direction: Literal["own", "self_similar", "normal_to_cod", "initial", "given"] = Field(
         "own",
-        description="where to: by the criterion, straight on, normal to the opening, as at the "
-        "start, or `toward`",
+        description="where to: by the criterion (the last three of them: straight on), straight "
+        "on, normal to the opening, as at the start, or `toward`",
     )
     toward: pair(Number) | None = Field(
         None, description="direction for `direction: given`, in the undeformed body"
@@ -82,80 +94,30 @@ class Propagation(Section):
     cracks: tuple[Name, ...] | None = Field(
         None, min_length=1, description="names of the cracks that may grow; all if not given"
     )
+    p: Number | None = Field(
+        None, gt=0, le=100, description="exponent of K_I/K_Ic in `criterion: empirical`; 2"
+    )
+    q: Number | None = Field(
+        None, gt=0, le=100, description="exponent of K_II/K_IIc in `criterion: empirical`; 2"
+    )
+    begin: Time | None = Field(
+        None,
+        ge=0,
+        description="with `criterion: steady_state` a crack runs from this time on at the latest",
+    )
 
     def wrong_values(self) -> Iterator[Wrong]:
-        """A direction that is given has a vector, and only that."""
+        """Keys that go with one criterion or direction, and that they need."""
         if self.direction == "given" and self.toward is None:
             yield ("toward",), "is missing; it goes with direction: given"
         if self.toward is not None and self.direction != "given":
             yield ("toward",), f"goes with direction: given only (got {shown(self.direction)})"
         if self.toward is not None and hypot(*self.toward) == 0.0:
             yield ("toward",), "must not be [0, 0]"
-
-
-class MaxHoopStress(Propagation):
-    """Across the largest hoop stress, when it is that of K_Ic."""
-
-    criterion: Literal["max_hoop_stress"] = Field("max_hoop_stress", description=WHEN)
-
-
-class MaxEnergyReleaseRate(Propagation):
-    """Where a short kink releases most energy, when that is G_Ic."""
-
-    criterion: Literal["max_energy_release_rate"] = Field(
-        "max_energy_release_rate", description=WHEN
-    )
-
-
-class StrainEnergyDensity(Propagation):
-    """Where the strain energy density is smallest, when it is that of K_Ic."""
-
-    criterion: Literal["strain_energy_density"] = Field("strain_energy_density", description=WHEN)
-
-
-class Empirical(Propagation):
-    """By hoop stress, when (K_I/K_Ic)^p + (K_II/K_IIc)^q = 1."""
-
-    criterion: Literal["empirical"] = Field("empirical", description=WHEN)
-    p: Number = Field(2.0, gt=0, le=100, description="exponent of K_I/K_Ic")
-    q: Number = Field(2.0, gt=0, le=100, description="exponent of K_II/K_IIc")
-
-
-class MaxCtod(Propagation):
-    """Straight on, when the opening near the tip is delta_Ic or the sliding delta_IIc."""
-
-    criterion: Literal["max_ctod"] = Field("max_ctod", description=WHEN)
-
-
-class CriticalJ(Propagation):
-    """Straight on, when J is G_Ic."""
-
-    criterion: Literal["critical_J"] = Field("critical_J", description=WHEN)
-
-
-class SteadyState(Propagation):
-    """Straight on for good at a prescribed speed, from the time when J is G_Ic or from `begin`."""
-
-    criterion: Literal["steady_state"] = Field("steady_state", description=WHEN)
-    begin: Time | None = Field(
-        None, ge=0, description="the crack runs from this time on at the latest"
-    )
-
-    def wrong_values(self) -> Iterator[Wrong]:
-        """Its speed is prescribed."""
-        yield from super().wrong_values()
-        if self.speed.law != "prescribed":
+        for key, criterion in ONLY_WITH.items():
+            if getattr(self, key) is not None and self.criterion != criterion:
+                found = f"got {shown(self.criterion)}"
+                yield (key,), f"goes with criterion: {criterion} only ({found})"
+        if self.criterion == "steady_state" and self.speed.law != "prescribed":
             message = "must be {law: prescribed, value: ...} with criterion: steady_state"
             yield ("speed",), f"{message} (got {shown(self.speed.law)})"
-
-
-AnyPropagation = one_of(
-    "criterion",
-    MaxHoopStress,
-    MaxEnergyReleaseRate,
-    StrainEnergyDensity,
-    Empirical,
-    MaxCtod,
-    CriticalJ,
-    SteadyState,
-)
