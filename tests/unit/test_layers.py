@@ -16,7 +16,7 @@ LAYERS = (
     ("shapes", "materials"),
     ("transfer", "cracks"),
     ("boundary", "contact"),  # conditions act on the rows that cracks make
-    ("grid_velocity",),
+    ("grid_velocity", "crack_growth"),
     ("step",),
     ("deck", "output"),
     ("build", "study"),
