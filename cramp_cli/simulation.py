@@ -6,8 +6,8 @@ from time import perf_counter
 
 import numpy as np
 
-from cramp_cli.crack_growth import let_cracks_grow
 from cramp_cli.cracks.fields import find_rows, make_scratch
+from cramp_cli.cracks.grow import grow
 from cramp_cli.cracks.tips import sample_tips
 from cramp_cli.output.summary import Summary
 from cramp_cli.state.failure import NumericalFailure
@@ -75,8 +75,8 @@ class Books:
         damping, friction = float(books.damping[0]), float(books.friction[0])
         fracture = float(books.fracture[0])
         work = float(books.external[0])
-        spent = kinetic + stored + friction + damping + fracture
-        self.largest = max(self.largest, kinetic + stored, abs(work), friction + damping + fracture)
+        spent = kinetic + stored + friction + damping
+        self.largest = max(self.largest, kinetic + stored, abs(work), friction + damping)
         self.error = (spent - self.start - work) / self.largest if self.largest else 0.0
         total = momentum(state.particles)
         return {
@@ -163,7 +163,7 @@ class _Run:
         """Let the cracks grow by what the step has loaded them to, and tell of it."""
         if self.model.propagation is not None:
             with self.watch("10 cracks grow"):
-                self.outputs.growth(let_cracks_grow(self.model, self.state, self.scratch))
+                self.outputs.growth(grow(self.model, self.state, self.scratch))
 
     def after_step(self) -> None:
         """Look after the solution and write what is due."""

@@ -50,34 +50,14 @@ class Propagation:
     steady: bool = False  # once begun a crack never stops
 
 
-class Move(NamedTuple):
-    """A tip that is about to grow."""
-
-    tip: Tip
-    found: Any  # its load and place
-    load: Load
-    criterion: Any
-
-
-def plan_growth(model, state, scratch) -> tuple[list[Move], list[dict]]:
-    """Return the tips that will move in this step, and rows of growth.csv of those that rest.
-
-    Sets the load and the speed of every tip; call it after a step.
-    """
-    moves, rows = [], []
+def grow(model, state, scratch) -> list[dict]:
+    """Let all tips grow for a step and return the rows of growth.csv that tell of it."""
+    if model.propagation is None:
+        return []
+    rows = []
     for tip in tips_of(state.paths):
         if model.propagation.cracks[tip.crack]:
-            move, told = _plan(model, state, scratch, tip)
-            rows += told
-            moves += [move] if move else []
-    return moves, rows
-
-
-def move_tips(model, state, scratch, moves) -> list[dict]:
-    """Move tips and return the rows of growth.csv that tell of it."""
-    rows = []
-    for move in moves:
-        rows += _run(model, state, scratch, move._replace(tip=_at_end(state.paths, move.tip)))
+            rows += _grow_tip(model, state, scratch, _at_end(state.paths, tip))
     return rows
 
 
@@ -87,25 +67,19 @@ def _at_end(paths, tip) -> Tip:
     return Tip(tip.crack, tip.end, points[::-1] if tip.end else points)
 
 
-def _plan(model, state, scratch, tip) -> tuple[Move | None, list[dict]]:
+def _grow_tip(model, state, scratch, tip) -> list[dict]:
     growth, k = state.growth, line_of(tip)
     found = load_on(model, state, scratch, tip)
     growth.load[k], growth.stage[k] = found[:3], found.stage
     resistance = model.propagation.resistance.get(found.site.block.material)
     if resistance is None or found.stage == BLIND:
         growth.speed[k] = 0.0
-        return None, []
+        return []
     load = _load_of(state.paths, tip, found)
     growth.speed[k] = _speed(model, state, tip, resistance, load)
     if growth.speed[k] <= 0.0:
-        return None, _rest(model, state, tip, resistance)
-    growth.rested[k] = 0.0
-    step = float(growth.speed[k]) * model.dt + float(growth.owed[k])
-    growth.owed[k] = step
-    begins = growth.piece[k] >= model.propagation.piece
-    if begins and step < LEAST_MOVE * model.lattice.width:
-        return None, []
-    return Move(tip, found, load, resistance.criterion), []
+        return _rest(model, state, tip, resistance)
+    return _run(model, state, scratch, tip, found, load, resistance.criterion)
 
 
 def _load_of(paths, tip, found) -> Load:
@@ -138,12 +112,16 @@ def _rest(model, state, tip, resistance) -> list[dict]:
     return [_row(model, state, tip, "arrest")]
 
 
-def _run(model, state, scratch, move) -> list[dict]:
-    (tip, found, load, criterion), growth, rows = move, state.growth, []
-    k = line_of(tip)
-    step, growth.owed[k], growth.running[k] = float(growth.owed[k]), 0.0, 1
-    now = found.site.frame.now
+def _run(model, state, scratch, tip, found, load, criterion) -> list[dict]:
+    growth, k, rows = state.growth, line_of(tip), []
+    growth.rested[k] = 0.0
+    step = float(growth.speed[k]) * model.dt + float(growth.owed[k])
     begins = growth.piece[k] >= model.propagation.piece
+    if begins and step < LEAST_MOVE * model.lattice.width:
+        growth.owed[k] = step
+        return []
+    growth.owed[k], growth.running[k] = 0.0, 1
+    now = found.site.frame.now
     if begins:
         now = _begin_piece(model, state, scratch, tip, load, criterion, now)
         tip = _at_end(state.paths, tip)
@@ -202,6 +180,7 @@ def _book(model, state, tip, found, step) -> None:
     spent = share * found.J * step * model.geometry.thickness
     state.growth.energy[k] += spent
     state.growth.pending[k] += spent
+    state.books.fracture[0] += spent
 
 
 def _row(model, state, tip, kind) -> dict:

@@ -16,7 +16,7 @@ LAYERS = (
     ("shapes", "materials"),
     ("transfer", "cracks"),
     ("boundary", "contact"),  # conditions act on the rows that cracks make
-    ("grid_velocity", "crack_growth"),
+    ("grid_velocity",),
     ("step",),
     ("deck", "output"),
     ("build", "study"),
