@@ -22,6 +22,7 @@ from cramp_cli.state.growth import BLIND, HELD
 from cramp_cli.state.paths import EDGE, PLAIN
 
 CORNER = 0.4363  # a turn of more than this (25 degrees, rad) is a corner
+TURNING = 2.0  # cells on the way of which a running tip turns
 LEAST_MOVE = 1e-3  # growth shorter than this (cells) waits before it begins a new piece
 ARREST = 10.0  # cells a Rayleigh wave travels before a tip at rest counts as arrested
 
@@ -129,6 +130,7 @@ def _run(model, state, scratch, tip, found, load, criterion) -> list[dict]:
     reach, met, kind = first_met(model, state, tip, heading, now, step)
     move_end(state.paths, tip.crack, tip.end, reach * heading, reach * np.array(now))
     growth.piece[k] += reach
+    growth.mean[k] += reach * growth.load[k, 1:]
     growth.length[k] += reach
     growth.kink[k] += reach
     if growth.kink[k] > max(LONG, USUAL) * model.lattice.width:
@@ -149,20 +151,30 @@ def _run(model, state, scratch, tip, found, load, criterion) -> list[dict]:
 
 
 def _begin_piece(model, state, scratch, tip, load, criterion, now) -> tuple:
-    """Turn the tip and add a point for the piece that begins; return its direction now."""
+    """Turn the tip and add a point for the piece that begins; return its direction now.
+
+    A tip at rest may leave a corner. A running tip turns by the mean load on the way of its last
+    piece (the load at one moment holds the waves that the passage of every node sends out), and
+    within two cells, not at once: its domain sees the direction of the crack over that length, and
+    a tip that turned by all of the angle in each piece would overshoot and run in a zigzag.
+    """
     growth, settings, k = state.growth, model.propagation, line_of(tip)
     heading = tuple(growth.heading[k].tolist())
+    running = 0.0 < growth.piece[k] < inf
+    if running:
+        K_I, K_II = (growth.mean[k] / growth.piece[k]).tolist()
+        load = load._replace(K_I=K_I, K_II=K_II)
     turn = 0.0
     if growth.stage[k] != HELD:
         fixed = settings.toward if settings.direction == GIVEN else tuple(growth.initial[k])
         turn = turn_by(settings.direction, criterion, load, heading, fixed)
     place = state.paths.origin[end_point(state.paths, tip.crack, tip.end)].copy()
-    if growth.kink[k] < LONG * model.lattice.width:  # no corner while there is one this near
-        turn = min(max(turn, -CORNER), CORNER)
+    if running:
+        turn *= min(growth.piece[k] / (TURNING * model.lattice.width), 1.0)
     elif abs(turn) > CORNER:
         growth.corner[k], growth.parent[k], growth.kink[k] = place, heading, 0.0
     growth.heading[k] = turned(heading, turn)
-    growth.piece[k] = 0.0
+    growth.piece[k], growth.mean[k] = 0.0, 0.0
     state.paths = add_point(state.paths, tip.crack, tip.end)
     scratch.segments = make_room(state.paths, scratch.segments, model.lattice.node_count)
     return turned(now, turn)

@@ -22,6 +22,7 @@ class Growth(NamedTuple):
     owed: np.ndarray  # (ends,) growth too short to be laid out yet (m)
     speed: np.ndarray  # (ends,) m/s
     load: np.ndarray  # (ends, 3) J (J/m^2), K_I, K_II (Pa sqrt(m)) when last found
+    mean: np.ndarray  # (ends, 2) sums of K_I and K_II times the way of the piece (Pa m^1.5)
     stage: np.ndarray  # (ends,) where the load was found: OWN, KINK, ...
     running: np.ndarray  # (ends,) 1 from the onset to an arrest
     rested: np.ndarray  # (ends,) time at rest since it last moved (s)
@@ -45,6 +46,7 @@ def make_growth(paths) -> Growth:
         owed=np.zeros(n),
         speed=np.zeros(n),
         load=np.zeros((n, 3)),
+        mean=np.zeros((n, 2)),
         stage=np.full(n, BLIND, dtype=np.int64),
         running=np.zeros(n, dtype=np.int64),
         rested=np.zeros(n),
