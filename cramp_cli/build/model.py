@@ -12,12 +12,12 @@ from cramp_cli.materials.geometry import PlaneStrain, PlaneStress
 from cramp_cli.materials.law import confined_modulus
 from cramp_cli.shapes.linear import Linear
 from cramp_cli.shapes.ugimp import UniformGimp
+from cramp_cli.state.bands import band_starts, sorted_by_cell
 from cramp_cli.state.growth import make_growth
 from cramp_cli.state.lattice import Lattice
 from cramp_cli.state.model import SCHEMES, Block, Model, State, TipNodes, no_energy
 from cramp_cli.state.particles import Particles, particles_at
 from cramp_cli.state.paths import EDGE, PLAIN, TIP, Paths, make_paths
-from cramp_cli.transfer.bands import band_starts, sorted_by_cell
 from cramp_cli.transfer.update import Flip, Fmpm, Xpic
 
 GEOMETRIES = {"plane_strain": PlaneStrain, "plane_stress": PlaneStress}
