@@ -26,6 +26,7 @@ LATER = {
     ("OutputSection", "every"): "`solver.end_time` / 100",
     ("OutputSection", "history_every"): "`output.every` / 10",
     ("Frictional", "mu_static"): "`mu`",
+    ("PropagationSection", "piece"): "half a cell",
 }
 FAMILIES = {
     "shape": "shape",
@@ -34,6 +35,7 @@ FAMILIES = {
     "loads": "load",
     "cracks": "contact law",
     "materials": "material",
+    "propagation": "speed law",
 }
 TITLES = {
     "Deck": "The deck",

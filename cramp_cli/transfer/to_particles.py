@@ -2,7 +2,7 @@
 
 As in to_grid.py: plain MPM for particles far from cracks, rows instead of nodes for those near.
 
-parts: (k, 3) runs of particles, first and last + 1, and the band they belong to (bands.py)
+parts: (k, 3) runs of particles, first and last + 1, and the band they belong to (state/bands.py)
 """
 
 from numpy import uint64
@@ -28,8 +28,8 @@ from cramp_cli.numerics.tensor import (
     zero_matrix,
 )
 from cramp_cli.shapes.shape import factors, first_nodes, gradients, support, weights
+from cramp_cli.state.bands import HEIGHT, STRAY
 from cramp_cli.state.stencil import AROUND, CLOSE, FAR
-from cramp_cli.transfer.bands import HEIGHT, STRAY
 from cramp_cli.transfer.nodes import give, take, take_both
 from cramp_cli.transfer.rows import add, entry_gradient, first_line
 from cramp_cli.transfer.update import moved
