@@ -272,8 +272,7 @@ def verify_cases(
             run = run_case(case, (output or Path(temporary)) / case.name, threads)
             found = verify.judge(case, run)
             if update:
-                case = verify.freeze(case, found)
-                found = verify.judge(case, run)
+                case, found = _frozen(case, found, run)
             results.append((case, found))
             say(f"{case.name}: {perf_counter() - begun:.0f} s")
         if page:
@@ -284,6 +283,19 @@ def verify_cases(
     answer = [one.as_json() for one in found]
     print(json.dumps(plain(answer), indent=2) if as_json else verify.table(found))
     return all(one.passed for one in found)
+
+
+def _frozen(case, found, run: Path):
+    """Freeze what was found, unless a bound is missed; return case and findings as they are now."""
+    from cramp_cli.output.exits import FolderError
+    from cramp_cli.study import verify
+
+    try:
+        case = verify.freeze(case, found)
+    except FolderError as refused:
+        say(str(refused))
+        return case, found
+    return case, verify.judge(case, run)
 
 
 def readable(needs: dict) -> dict[str, object]:

@@ -85,8 +85,11 @@ def local_gradient(frame, F, p):
 
 
 @kernel
-def material_beside(particles, frame, length, lo, hi):
+def material_beside(particles, frame, length, line, lo, hi):
     """Return weighed volumes of particles above and below the crack just behind a tip (m^3).
+
+    Above is what lies further than `line` (m) above the crack: a hair, with the sign that gives
+    particles on the crack to the side on which the line test sees them (crossing.py).
 
     The weight is a bump of height 1 along the crack, from the tip to `length` behind it, times one
     that falls from the crack to `length` on either side; its integral is length/2 along the crack.
@@ -98,7 +101,7 @@ def material_beside(particles, frame, length, lo, hi):
         if -length < x < 0.0 and abs(y) < length:
             along = weight(abs(x + 0.5 * length), 0.0, 0.5 * length)[0]
             w = volume[p] * along * weight(abs(y), 0.0, length)[0]
-            if y > 0.0:
+            if y > line:
                 above += w
             else:
                 below += w

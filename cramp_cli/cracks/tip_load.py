@@ -50,7 +50,7 @@ def load_on(model, state, scratch, tip: Tip) -> TipLoad:
     """Return the load on a tip; the last one where no domain fits (HELD), or none yet (BLIND)."""
     growth, k, width = state.growth, line_of(tip), model.lattice.width
     place = state.paths.origin[tip.points[0]]
-    site = site_at(model, state, scratch, tip.crack, place, tuple(growth.heading[k].tolist()))
+    site = site_at(model, state, scratch, tip, place, tuple(growth.heading[k].tolist()))
     kink = float(growth.kink[k])
     late = min(max((kink / width - SHORT) / (LONG - SHORT), 0.0), 1.0)
     own = _own_load(model, state, scratch, tip, site, kink) if late > 0.0 else None
@@ -86,7 +86,7 @@ def _parent_load(model, state, scratch, tip, site, kink):
     """Return J, K_I, K_II at the end of a short kink, or None where the corner has no room."""
     width, growth, k = model.lattice.width, state.growth, line_of(tip)
     before = tuple(growth.parent[k].tolist())
-    corner = site_at(model, state, scratch, tip.crack, growth.corner[k], before)
+    corner = site_at(model, state, scratch, tip, growth.corner[k], before)
     room, _ = find_room(model, state.paths, tip, corner.frame.origin, bends=False)
     inner = max(kink + AROUND * width, width)
     radius = min(inner + FALL * width, room)

@@ -15,6 +15,7 @@ import numpy as np
 from cramp_cli.cracks.cloud import Cloud, cloud_around
 from cramp_cli.cracks.contact import GLUED, IGNORE, OPEN
 from cramp_cli.cracks.contour_integral import along, integrate_contour
+from cramp_cli.cracks.crossing import ON_CRACK
 from cramp_cli.cracks.domain_integral import (
     Hooke,
     TipFrame,
@@ -139,11 +140,11 @@ def site_of(model, state, scratch, tip) -> Site:
     """Return what the integrals around a tip need to know."""
     paths = state.paths
     place = paths.origin[tip.points[0]]
-    return site_at(model, state, scratch, tip.crack, place, tip.direction(paths.origin))
+    return site_at(model, state, scratch, tip, place, tip.direction(paths.origin))
 
 
-def site_at(model, state, scratch, crack, place, before) -> Site:
-    """Return what integrals around a place of a crack need to know.
+def site_at(model, state, scratch, tip, place, before) -> Site:
+    """Return what integrals around a place of the crack of a tip need to know.
 
     place: in the undeformed body (m); before: unit vector along the crack there
     """
@@ -152,10 +153,10 @@ def site_at(model, state, scratch, crack, place, before) -> Site:
     cloud = cloud_around(model, state, scratch, place, reach)
     block = block_at(model, cloud, place)
     gravity = model.conditions.body_force(state.time, len(model.strides))
-    half = bool(state.paths.mirror[crack, 0] >= 0)
+    half = bool(state.paths.mirror[tip.crack, 0] >= 0)
     if not half:
         frame = turned_with_solid(model, cloud.particles, frame)
-        frame = between_particles(model, cloud, frame)
+        frame = between_particles(model, cloud, frame, tip.end)
     return Site(frame, cloud, block, hooke_of(block.law, model.geometry), gravity, half)
 
 
@@ -173,15 +174,20 @@ def turned_with_solid(model, particles, frame) -> TipFrame:
     return frame._replace(now=(float(c * ex - s * ey), float(s * ex + c * ey)))
 
 
-def between_particles(model, cloud, frame) -> TipFrame:
+def between_particles(model, cloud, frame, end) -> TipFrame:
     """Return the frame of a tip moved to the line that parts the particles of both sides.
 
     Particles belong to one side as wholes, so the faces of the discrete body lie midway between
     them, up to a quarter of a cell from the line of the crack; seen from the line itself K_I would
     leak into K_II by a percent at ten cells per half crack.
+
+    end: 0 at the first point of the crack, where the frame looks against the crack's direction
     """
     length, thickness = BESIDE * model.lattice.width, model.geometry.thickness
-    sides = [material_beside(cloud.particles, frame, length, lo, hi) for _, lo, hi in cloud.parts]
+    line = (2 * end - 1) * ON_CRACK * model.lattice.width  # particles on a crack lie below it
+    sides = [
+        material_beside(cloud.particles, frame, length, line, lo, hi) for _, lo, hi in cloud.parts
+    ]
     above, below = (sum(side) / (0.5 * length * thickness) for side in zip(*sides, strict=True))
     if abs(above + below - length) > LEAK * length:
         return frame
