@@ -364,6 +364,29 @@ def test_what_is_no_run_is_named(cramp, here, command):
         assert str(path) in err
 
 
+def test_verify_tells_what_is_off(cramp, monkeypatch):
+    def run(case, folder, threads):
+        folder.mkdir()
+        (folder / "cracks.csv").write_text("crack,tip,time,K_I,K_II\nedge,end,0,0,0\n")
+        return folder
+
+    monkeypatch.setattr("cramp_cli.commands.run_case", run)
+    code, out, _ = cramp("verify", "edge_crack_20")
+    assert code == 1
+    assert out.splitlines()[1].split()[-1] == "off"
+    code, out, _ = cramp("verify", "edge_crack_20", "--json")
+    assert (code, json.loads(out)[0]["verdict"]) == (1, "off")
+    code, _, err = cramp("verify", "edge_crack_20", "--update")
+    assert code == 1
+    assert "not frozen; K_I, edge end: 0 is out of its bound" in err
+
+
+def test_verify_knows_its_cases(cramp):
+    code, _, err = cramp("verify", "edge_crak")
+    assert code == 4
+    assert "did you mean 'edge_crack'" in err
+
+
 def test_doctor_finds_this_installation_well(cramp, solver, monkeypatch, tmp_path):
     monkeypatch.setenv("CRAMP_CACHE_DIR", str(tmp_path / "kernels"))
     code, out, err = cramp("doctor", "--warmup")

@@ -9,7 +9,9 @@ import yaml
 from cramp_cli.deck.deck import DeckError
 from cramp_cli.deck.expect import read_expectation
 from cramp_cli.output.exits import FolderError
+from cramp_cli.study.results import read_table
 from cramp_cli.study.verify import chosen, freeze, judge, table
+from cramp_cli.study.verify_page import write_page
 
 K_I = {"table": "cracks.csv", "tip": "notch end", "column": "K_I"}
 BOUND = {"reference": 100.0, "within": 2.0, "source": "theory"}
@@ -128,3 +130,21 @@ def test_every_shipped_curve_and_deck_is_there():
         assert case.deck_path.exists(), case.path
         for entry in case.numbers:
             assert entry.curve is None or (case.path.parent / entry.curve.file).exists()
+
+
+def test_a_page_shows_numbers_curves_and_sources(tmp_path):
+    """A run that repeats its reference, a third too large: 18 % to 33 %, rms over the peak."""
+    (case,) = chosen(["step_load_50"])
+    curve = read_table(case.path.parent / "reference" / "step_load.csv")
+    run = tmp_path / "runs" / case.name
+    run.mkdir(parents=True)
+    rows = [("half", "end", t, 4 * K / 3) for t, K in zip(*curve.values(), strict=True)]
+    write(run / "cracks.csv", [("crack", "tip", "time", "K_I"), *rows])
+    found = judge(case, run)
+    page = write_page(tmp_path / "docs" / "all.md", [(case, found)], run.parent).read_text()
+    assert 0.18 < found[0].error < 1 / 3
+    line = next(line for line in page.splitlines() if line.startswith("| [step_load_50]"))
+    assert line.endswith("| **2 %** | off |")
+    assert "Out of their bounds: `step_load_50` K_I, half end" in page
+    assert "Freund" in page
+    assert (tmp_path / "docs" / "all" / "step_load_50.png").stat().st_size > 10_000

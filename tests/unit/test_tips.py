@@ -92,6 +92,17 @@ def test_the_frame_turns_with_the_solid():
     np.testing.assert_allclose([frame.before, frame.now], [(1.0, 0.0), (0.8, 0.6)], atol=1e-14)
 
 
+def test_particles_on_a_crack_lie_below_it_for_both_tips():
+    """A diagonal through particles: faces are a row of particles above it, the frames go midway."""
+    model, state, scratch = build_deck(PLATE, cracks=[{"name": "c", **inner((8, 4), (20, 16))}])
+    shifts = []
+    for tip in tips_of(state.paths):
+        place = state.paths.origin[tip.points[0]]
+        shifts.append(np.array(site_of(model, state, scratch, tip).frame.origin) - place)
+    np.testing.assert_allclose(shifts[0], shifts[1], atol=1e-9)
+    assert shifts[0] @ (-1.0, 1.0) > 0.1  # above: particles are a quarter of sqrt(2) cells apart
+
+
 def test_a_fixed_crack_has_no_opening():
     row = sampled(inner((0, 10), (15, 10), start="edge", motion="fixed"))["c0", "end"]
     assert np.isnan([row["ctod_n"], row["ctod_t"]]).all()
