@@ -109,6 +109,25 @@ def material_beside(particles, frame, length, line, lo, hi):
 
 
 @kernel
+def beside_crack(particles, frame, width, R0, R1, lo, hi):
+    """Return sums over the particles within `width` (m) of the crack behind a tip.
+
+    returns: integral of the weight q/sqrt(r), of it times the shear and the normal stress
+    """
+    X, volume, stress = particles.origin, particles.volume, particles.stress
+    total, shear, normal = 0.0, 0.0, 0.0
+    for p in range(lo, hi):
+        x, y = local_vector(frame.before, X[p, 0] - frame.origin[0], X[p, 1] - frame.origin[1])
+        if -R1 < x < -width and abs(y) < width:
+            w = volume[p] * weight(-x, R0, R1)[0] / sqrt(-x)
+            _, yy, xy = local_stress(frame.now, stress, p)
+            total += w
+            shear += w * xy
+            normal += w * yy
+    return total, shear, normal
+
+
+@kernel
 def integrate_domain(particles, frame, hooke, gravity, R0, R1, lo, hi):
     """Return J and the integrals for K_I and K_II over particles lo..hi, per thickness times V.
 

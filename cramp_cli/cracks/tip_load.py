@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from cramp_cli.cracks.domain_integral import inner_radius
+from cramp_cli.cracks.face_terms import rubbed_off
 from cramp_cli.cracks.kink import LARGEST, kinked
 from cramp_cli.cracks.moving_tip import integrate_flux, mean_velocity
 from cramp_cli.cracks.room import find_room
@@ -76,8 +77,10 @@ def _own_load(model, state, scratch, tip, site, kink):
             if state.growth.length[line_of(tip)] > 0.0:
                 J = flux_into_tip(model, site, inner_radius(radius, width), radius)
             here = state.paths.point[tip.points[0]]
-            closed = is_closed(model, scratch, tip.crack, here, radius, K_I)
-            return J, 0.0 if closed else K_I, K_II
+            if is_closed(model, scratch, tip.crack, here, radius, K_I):
+                inner = inner_radius(radius, width)
+                K_I, K_II = 0.0, K_II - rubbed_off(model, site, tip.crack, inner, radius)
+            return J, K_I, K_II
         radius *= 0.9
     return None
 
@@ -95,7 +98,7 @@ def _parent_load(model, state, scratch, tip, site, kink):
         if not spoiled:
             here = state.paths.point[tip.points[0]]
             if is_closed(model, scratch, tip.crack, here, radius, K_I):
-                K_I = 0.0
+                K_I, K_II = 0.0, K_II - rubbed_off(model, corner, tip.crack, inner, radius)
             (ax, ay), (bx, by) = before, growth.heading[k]
             phi = min(max(atan2(ax * by - ay * bx, ax * bx + ay * by), -LARGEST), LARGEST)
             k_I, k_II = kinked(K_I, K_II, phi)

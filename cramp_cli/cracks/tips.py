@@ -24,6 +24,7 @@ from cramp_cli.cracks.domain_integral import (
     integrate_domain,
     material_beside,
 )
+from cramp_cli.cracks.face_terms import rubbed_off
 from cramp_cli.cracks.intensity import K_from_J, open_and_slide, opening_near_tip
 from cramp_cli.cracks.room import find_room
 from cramp_cli.materials.geometry import is_plane_stress
@@ -249,8 +250,10 @@ def _measure_domain(model, state, scratch, tip, site):
     others = [r for r in radii[1:] or [s * radius for s in SPREAD] if r <= room]
     spread = _spread(J, [domain_values(model, site, r) for r in others])
     status = f"shrunk: {remark} within {wanted / width:.3g} cells" if remark else ""
-    if is_closed(model, scratch, tip.crack, paths.point[tip.points[0]], radius, K_I):
+    here, inner = paths.point[tip.points[0]], inner_radius(radius, width)
+    if is_closed(model, scratch, tip.crack, here, radius, K_I):
         K_I, status = 0.0, "; ".join(filter(None, ["closed", status]))
+        K_II -= rubbed_off(model, site, tip.crack, inner, radius)
     return {"J": J, "K_I": K_I, "K_II": K_II, "J_spread": spread}, status
 
 

@@ -21,6 +21,7 @@ from cramp_cli.study.results import Columns, by_tip, read_table, unit_of
 from cramp_cli.study.templates import template_folder
 
 EFFORTS = {"quick": ("quick",), "usual": ("quick", "usual"), "full": ("quick", "usual", "full")}
+NOTHING = 1e-4  # percent; smaller errors are told as below it
 HEAD = "# Expected numbers of a deck; cramp_cli/deck/expect.py says what the keys mean.\n"
 
 
@@ -192,7 +193,7 @@ def _error(value: float | None, size: float) -> str:
     if value is None or not size:
         return number(value)
     share = 100.0 * value / size
-    return "0 %" if share < 1e-6 else f"{share:.2g} %"
+    return f"< {NOTHING:g} %" if share < NOTHING else f"{share:.2g} %"
 
 
 COLUMNS = ("case", "number", "measured", "reference", "error", "bound", "aim", "")

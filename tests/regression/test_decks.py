@@ -11,7 +11,13 @@ from cramp_cli.study.templates import template_folder
 from cramp_cli.study.verify import cases, judge
 
 CASES = cases()
-SLOW = {name for name, path in CASES.items() if read_expectation(path).effort == "full"}
+
+
+def is_slow(path):
+    return path.parent.name == "verification" and read_expectation(path).effort != "quick"
+
+
+SLOW = {name for name, path in CASES.items() if is_slow(path)}
 ALL = [pytest.param(n, marks=pytest.mark.slow) if n in SLOW else n for n in CASES]
 
 
