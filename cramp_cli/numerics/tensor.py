@@ -10,9 +10,9 @@ from cramp_cli.numerics.dispatch import by_length
 
 __all__ = [
     "add_outer", "apply", "columns", "determinant", "dot", "from_columns", "in_cells",
-    "increment", "matrix", "outer", "outer_sum", "pick", "plus", "product", "rotation_of",
-    "scaled", "solid_strain", "symmetric", "times", "turn", "vector", "vector_of", "whole",
-    "within", "work_of", "zero_matrix",
+    "increment", "kept", "matrix", "outer", "outer_sum", "pick", "plus", "product",
+    "rotation_of", "scaled", "solid_strain", "store", "symmetric", "times", "turn", "vector",
+    "vector_of", "whole", "within", "work_of", "zero_matrix",
 ]  # fmt: skip
 
 
@@ -205,6 +205,33 @@ def _(v, g, A):
         A[3] + v[1] * g[0], A[4] + v[1] * g[1], A[5] + v[1] * g[2],
         A[6] + v[2] * g[0], A[7] + v[2] * g[1], A[8] + v[2] * g[2],
     )  # fmt: skip
+
+
+@by_length
+def store(values, a, i, k):
+    """Write a tuple into row `i` of the array `a`, from column `k` on."""
+    a[i, k] = values[0]
+    store(values[1:], a, i, k + 1)
+
+
+@store.implement(1)
+def _(values, a, i, k):
+    a[i, k] = values[0]
+
+
+@by_length
+def kept(like, T):
+    """Return the components that are stored of a symmetric tensor of six; `like` is a matrix."""
+
+
+@kept.implement(4)
+def _(like, T):
+    return T[:4]
+
+
+@kept.implement(9)
+def _(like, T):
+    return T
 
 
 @by_length

@@ -15,10 +15,12 @@ from cramp_cli.numerics.tensor import (
     from_columns,
     in_cells,
     increment,
+    kept,
     matrix,
     plus,
     product,
     scaled,
+    store,
     times,
     turn,
     vector,
@@ -58,8 +60,7 @@ def locate(stencil, position, shape, lower, strides, nodes, width, head, zone, a
                 gone = number
                 continue
             base[p] = dot(first, strides)
-            for d in range(len(first)):
-                local[p, d] = x[d] - first[d]
+            store(plus(x, -1.0, first), local, p, 0)
             strayed += not lowest <= cell[axis] < highest
             if zone[dot(cell, strides)]:
                 near[p] = CLOSE if head[dot(cell, strides)] >= 0 else AROUND
@@ -128,10 +129,9 @@ def _move_one(particles, p, update, u, a, damping, dt):
     """Move a particle with grid velocity u and acceleration a; return the energy taken (J)."""
     V = vector(u, particles.velocity, p)
     new, mean = moved(update, V, u, a, damping[0], damping[1], dt)
-    for d in range(len(V)):
-        particles.velocity[p, d] = new[d]
-        particles.position[p, d] += dt * mean[d]
-        particles.acceleration[p, d] = a[d]
+    store(new, particles.velocity, p, 0)
+    store(plus(vector(u, particles.position, p), dt, mean), particles.position, p, 0)
+    store(a, particles.acceleration, p, 0)
     free = plus(V, dt, a)
     return 0.5 * particles.mass[p] * dot(plus(free, -1.0, new), plus(V, 1.0, new))
 
@@ -184,10 +184,7 @@ def _strain_one(particles, p, law, geometry, gradient, dt, last):
     strain, new = strained(geometry, law, turned, dU)
     particles.work[p] += work_of(turned, new, strain)
     particles.stretch[p] *= 1.0 + strain[2] + 0.5 * strain[2] * strain[2]
-    for c in range(stress.shape[1]):
-        stress[p, c] = new[c]
-    after = product(increment(dU), matrix(dU, F, p))
-    for c in range(len(dU)):
-        F[p, c] = after[c]
-        if last:
-            L[p, c] = gradient[c]
+    store(kept(dU, new), stress, p, 0)
+    store(product(increment(dU), matrix(dU, F, p)), F, p, 0)
+    if last:
+        store(gradient, L, p, 0)
