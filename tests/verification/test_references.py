@@ -43,3 +43,25 @@ def test_centre_cracks(case, a):
 def test_edge_crack():
     expected = EDGE_CRACK[0.5] * 1e6 * np.sqrt(np.pi * 0.05)
     assert reference("edge_crack_20") == pytest.approx(expected, rel=1e-6)
+
+
+def errors(case):
+    """Return the frozen errors of K over their references, or over the peak of their curve."""
+    bounded = (e for e in chosen([case])[0].numbers if e.curve or (e.reference and e.tip))
+    return [e.value if e.curve else abs(e.value / e.reference - 1.0) for e in bounded]
+
+
+@pytest.mark.parametrize(
+    ("coarse", "fine"),
+    [
+        ("center_crack", "center_crack_20"),
+        ("edge_crack", "edge_crack_20"),
+        ("step_load_50", "step_load"),
+        ("denp", "denp_100"),
+    ],
+)
+def test_errors_fall_with_half_the_cell(coarse, fine):
+    """To a half in statics; waves with a front lose some: the error falls as h^0.7 at least."""
+    order = 1.0 if "crack" in coarse else 0.7
+    pairs = zip(errors(coarse), errors(fine), strict=False)
+    assert all(small <= large * 0.5**order for large, small in pairs)
