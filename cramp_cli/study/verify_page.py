@@ -10,6 +10,7 @@ from cramp_cli.study.curves import name_of
 from cramp_cli.study.figures import BLACK, CYCLE, WIDTH, drawing, save
 from cramp_cli.study.quantities import label, scale_for
 from cramp_cli.study.results import by_tip, read_table, unit_of
+from cramp_cli.study.templates import template_folder
 from cramp_cli.study.verify import Finding, row
 
 HEAD = """# Verification
@@ -74,8 +75,8 @@ def _missed(results: Results) -> str:
 
 def _sources(results: Results) -> Iterable[str]:
     for case, findings in results:
-        deck = f"inputs/{'' if case.path.parent.name == 'inputs' else 'verification/'}"
-        yield f"### {case.name}\n\n{title_of(case)}. `{deck}{case.deck or case.name + '.yaml'}`"
+        deck = case.deck_path.resolve().relative_to(template_folder().resolve())
+        yield f"### {case.name}\n\n{title_of(case)}. `inputs/{deck.as_posix()}`"
         yield (
             f" with {', '.join(f'`{s}`' for s in case.settings)}.\n\n" if case.settings else ".\n\n"
         )
