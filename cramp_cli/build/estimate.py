@@ -4,6 +4,7 @@ from math import ceil
 
 from cramp_cli.build.model import time_step, wave_speed
 from cramp_cli.deck.size import size_of
+from cramp_cli.deck.solids import Isotropic
 
 CHECKPOINT_BYTES = 27 * 8  # of a particle; two are kept while the next is written
 FRAME_BYTES = {
@@ -14,6 +15,8 @@ FRAME_BYTES = {
     "acceleration": 12,
     "deformation_gradient": 36,
     "energy": 4,
+    "dissipated_energy": 4,
+    "plastic_strain": 4,
 }
 POINT_BYTES = 16  # position, body and material of a particle in a frame
 PACKED = 0.6  # what compression leaves
@@ -40,6 +43,8 @@ def estimate(deck) -> dict:
 
 
 def _material_facts(deck, name, material) -> dict:
+    if not isinstance(material, Isotropic):
+        return {f"{name}: waves": f"{wave_speed(material):.5g} m/s, the fastest of all directions"}
     shear_speed = (material.shear / material.density) ** 0.5
     stiffness = material.plane_modulus(deck.analysis)
     facts = {

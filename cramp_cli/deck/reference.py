@@ -34,6 +34,8 @@ FAMILIES = {
     "loads": "load",
     "cracks": "contact law",
     "materials": "material",
+    "anisotropic": "material",
+    "hardening": "hardening",
 }
 TITLES = {
     "Deck": "The deck",
