@@ -58,12 +58,15 @@ def confined_modulus(law):
 
 @generic
 def shear_modulus(law):
-    """Return the shear modulus for small, fast strains (Pa); nan for an anisotropic law."""
+    """Return the shear modulus for small strains (Pa); nan where direction or time decide on it.
+
+    Without it a crack tip has no K_I and K_II.
+    """
 
 
 @generic
 def poisson_ratio(law):
-    """Return Poisson's ratio for small, fast strains; nan for an anisotropic law."""
+    """Return Poisson's ratio for small strains; nan where direction or time decide on it."""
 
 
 def same_law(a, b) -> bool:
