@@ -62,7 +62,7 @@ def _(section: deck.DruckerPragerSection):
 def cone(match: str, angle: float) -> tuple[float, float]:
     """Return eta and xi of a friction angle (rad).
 
-    De Souza Neto, Peric and Owen (2008), eqs 6.121 to 6.124.
+    De Souza Neto, Peric and Owen (2008), section 6.4.
     """
     if match == "plane_strain":
         root = sqrt(9.0 + 12.0 * tan(angle) ** 2)

@@ -259,8 +259,8 @@ def _of_law(model, state, site) -> list[str]:
     if isnan(site.hooke.shear):
         found.append("K invalid: the stiffness of the material depends on direction or time")
     if taken > TAKEN * work:
-        share = f"{100.0 * taken / work:.0f} %"
-        found.append(f"doubtful: plastic or viscous strain took {share} of the work around the tip")
+        text = "doubtful: plastic or viscous strain took {:.0f} % of the work around the tip"
+        found.append(text.format(100.0 * taken / work))
     return found
 
 

@@ -2,7 +2,7 @@
 
 f = sqrt(J2) + eta p - xi c with the mean stress p, tension positive; the potential of the plastic
 flow has eta_flow in place of eta. De Souza Neto, Peric and Owen (2008), Computational Methods for
-Plasticity, box 8.8; the apex is returned to along the mean stress.
+Plasticity, section 8.3; the apex is returned to along the mean stress.
 """
 
 from math import sqrt

@@ -1,7 +1,7 @@
 """Rubber, the nearly incompressible Mooney-Rivlin solid.
 
 W = C10 (I1 - 3) + C01 (I2 - 3) + K/2 ((J^2 - 1)/2 - ln J) with I1, I2 of J^(-2/3) b (Mooney 1940;
-Rivlin 1948; split as in Simo and Hughes 1998, eq. 9.2.2). The Kirchhoff stress is
+Rivlin 1948; split as in Simo and Hughes 1998, section 9.2). The Kirchhoff stress is
 2 C10 dev bb + 2 C01 dev(I1 bb - bb^2) + K/2 (J^2 - 1) 1 with bb = J^(-2/3) b.
 """
 

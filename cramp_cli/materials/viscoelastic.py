@@ -2,7 +2,7 @@
 
 G(t) = G (1 - sum g_i (1 - exp(-t/tau_i))). Each branch remembers its stress h_i, which follows
 exactly where the strain rate is constant over the step (Taylor, Pister and Goudreau 1970; Simo and
-Hughes 1998, box 10.1).
+Hughes 1998, section 10.3).
 """
 
 from math import exp, expm1, nan

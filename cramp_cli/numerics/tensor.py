@@ -589,7 +589,7 @@ def _(F):
 
 @rotation_of.implement(9)
 def _(F):
-    # Newton's iteration R = (R + R^-T)/2 (Higham 1986, eq. 3.4): the last passes square the error.
+    # Newton's iteration R = (R + R^-T)/2 (Higham 1986): the last passes square the error.
     R = F
     for _ in range(20):
         j = 0.5 / determinant(R)

@@ -1,13 +1,19 @@
 """Materials of a deck: what is said of wrong ones, and the law that right ones become."""
 
+from typing import get_args
+
 import numpy as np
 import pytest
 from support import read
 
+from cramp_cli.build.estimate import FRAME_BYTES, estimate
 from cramp_cli.build.laws import law_of
 from cramp_cli.build.model import build
 from cramp_cli.deck.deck import DeckError
+from cramp_cli.deck.run import OutputField
 from cramp_cli.materials.law import confined_modulus, memory
+from cramp_cli.state.measures import FIELDS
+from cramp_cli.study.particles import UNITS
 
 SOLID = {"density": 1000, "E": "200 GPa", "nu": 0.3}
 METAL = SOLID | {"law": "j2_plastic"}
@@ -151,8 +157,20 @@ def test_the_history_is_as_wide_as_the_law_that_remembers_most():
     assert memory(law_of(material(polymer))) == 14
 
 
+def test_the_estimate_counts_the_history():
+    """Two columns of 8 bytes for each of 16 cells of 4 particles."""
+    metal = deck_of(METAL | {"hardening": {"type": "linear", "yield_stress": 1}})
+    plain = deck_of(SOLID | {"law": "elastic"})
+    sizes = [estimate(read(deck))["memory_bytes"] for deck in (metal, plain)]
+    assert sizes[0] - sizes[1] == 64 * 2 * 8
+
+
 def test_the_time_step_follows_the_stiffest_direction():
     """Fibres at any angle have the same wave speed, above sqrt(E_axial/rho)."""
     moduli = [confined_modulus(law_of(material(FIBRES | {"angle": a}))) for a in (0, 30, 90)]
     assert moduli == pytest.approx([moduli[0]] * 3, rel=1e-12)
     assert moduli[0] > 140e9
+
+
+def test_every_field_can_be_asked_for_written_counted_and_drawn():
+    assert set(get_args(OutputField)) == set(FIELDS) == set(FRAME_BYTES) == set(UNITS)

@@ -87,7 +87,7 @@ def test_neo_hookean_bar(step):
 
 @pytest.mark.parametrize("step", [0.01, -0.01])
 def test_mooney_rivlin_bar(step):
-    """Incompressible: tau = 2 (l^2 - 1/l) (C10 + C01/l) (Treloar 1975, eq. 5.5); here K = 1e5 G."""
+    """Incompressible: tau = 2 (l^2 - 1/l) (C10 + C01/l) (Treloar 1975); here K = 1e5 G."""
     law = MooneyRivlin(0.3, 0.2, 1e5)
     particle = particle_of(law)
     stress, _ = pull(particle, law, np.full(40, step))
@@ -99,7 +99,7 @@ def test_mooney_rivlin_bar(step):
 @pytest.mark.parametrize("angle", [0.0, 25.0, 60.0, 90.0])
 @pytest.mark.parametrize("turned", [0.0, 0.7])
 def test_off_axis_modulus(angle, turned):
-    """The strain of a bar cut at an angle (Jones 1975, eqs 2.97) gives stress along it alone.
+    """The strain of a bar cut at an angle (Jones 1999, section 2.8) gives stress along it alone.
 
     A bar that was turned as a whole at the start is stressed along its turned axis.
     """
