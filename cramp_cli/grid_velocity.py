@@ -16,7 +16,7 @@ from cramp_cli.transfer.update import Fmpm, Xpic
 
 def find_strain_velocity(model, state, scratch) -> None:
     """Set the grid velocity of a strain update: p/m, of order k with FMPM."""
-    find_velocity(scratch.grid, scratch.row_count)
+    find_velocity(scratch.grid, scratch.row_count, model.strides)
     if isinstance(model.update, Fmpm):
         _add_orders(model, state, scratch, scratch.grid.velocity[: scratch.row_count].copy())
 
@@ -24,7 +24,7 @@ def find_strain_velocity(model, state, scratch) -> None:
 def find_update_velocity(model, state, scratch) -> None:
     """Set the grid velocity of the particle update."""
     grid, count = scratch.grid, scratch.row_count
-    find_velocity(grid, count)
+    find_velocity(grid, count, model.strides)
     if isinstance(model.update, Fmpm):
         _add_orders(model, state, scratch, grid.velocity[:count].copy())
     if isinstance(model.update, Xpic):
@@ -39,7 +39,7 @@ def _add_orders(model, state, scratch, increment) -> None:
         smoothed = np.zeros_like(increment)
         smooth(model, state, scratch, smoothed, increment)
         reflect_sum(model.conditions, scratch, smoothed)
-        divide_by_mass(smoothed, grid.mass, len(smoothed))
+        divide_by_mass(smoothed, grid.mass, len(smoothed), model.strides)
         increment -= smoothed
         hold_increment(model.conditions, scratch, increment)
         touch_increment(increment, grid, scratch.rows, model.contact, model.strides)

@@ -7,6 +7,7 @@ from time import perf_counter
 import numpy as np
 
 from cramp_cli.cracks.fields import find_rows, list_cracks
+from cramp_cli.cracks.grow import grow
 from cramp_cli.cracks.tips import sample_tips
 from cramp_cli.output.summary import Summary
 from cramp_cli.scratch import make_scratch
@@ -76,6 +77,7 @@ class Books:
         kinetic, stored, plastic = sum_energies(state.particles)
         books = state.books
         damping, friction = float(books.damping[0]), float(books.friction[0])
+        fracture = float(books.fracture[0])
         work = float(books.external[0])
         taken = friction + plastic + damping
         spent = kinetic + stored + taken
@@ -88,7 +90,7 @@ class Books:
             "dt": dt,
             "kinetic_energy": kinetic,
             "strain_energy": stored,
-            "fracture_energy": 0.0,
+            "fracture_energy": fracture,
             "friction_energy": friction,
             "plastic_energy": plastic,
             "damping_energy": damping,
@@ -151,6 +153,7 @@ def simulate(
             run.after_step()
         while state.time < model.end_time - 1e-9 * model.dt:
             step(model, state, run.scratch, run.watch)
+            run.let_cracks_grow()
             run.after_step()
             first = first or run.first_step_took(perf_counter() - begin)
             wall = perf_counter() - begin - first
@@ -179,6 +182,12 @@ class _Run:
         list_cracks(model, state, self.scratch)
         locate_particles(model, state, self.scratch)
         find_rows(model, state, self.scratch)
+
+    def let_cracks_grow(self) -> None:
+        """Let the cracks grow by what the step has loaded them to, and tell of it."""
+        if self.model.propagation is not None:
+            with self.watch("10 cracks grow"):
+                self.outputs.growth(grow(self.model, self.state, self.scratch))
 
     def after_step(self) -> None:
         """Look after the solution and write what is due."""

@@ -60,11 +60,11 @@ def step(model, state, scratch, watch) -> None:
 
     with watch("6 equation of motion in every velocity field"):
         hold_forces(conditions, scratch, state, time, dt)
-        advance_momentum(grid, count, dt)
+        advance_momentum(grid, count, model.strides, dt)
         state.books.friction[0] += touch(grid, rows, laws, model.strides, dt, UPDATE)
         repeat_images(conditions, scratch, grid.momentum, grid.force)
         hold_after_contact(conditions, scratch, state, time, dt)
-        find_acceleration(grid, count)
+        find_acceleration(grid, count, model.strides)
 
     with watch("7 particles move"):
         find_update_velocity(model, state, scratch)
@@ -72,7 +72,9 @@ def step(model, state, scratch, watch) -> None:
 
     with watch("8 cracks move"):
         if state.paths.crack_count:
-            find_velocity(grid, count)  # of the first order, whatever moved the particles
+            find_velocity(
+                grid, count, model.strides
+            )  # of the first order, whatever moved the particles
             move_paths(model, state, scratch)
 
     with watch("9 strain after the motion"):  # none of the step in USF, half in USAVG, all in USL

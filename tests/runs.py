@@ -15,13 +15,16 @@ class Rows:
     """Stands in for the files of a run: keeps the rows of its tables, forgets the frames."""
 
     def __init__(self):
-        self.tables = {"history": [], "cracks": []}
+        self.tables = {"history": [], "cracks": [], "growth": []}
 
     def history(self, row):
         self.tables["history"].append(row)
 
     def tips(self, rows):
         self.tables["cracks"] += rows
+
+    def growth(self, rows):
+        self.tables["growth"] += rows
 
     def particle_frame(self, step, time, points, fields):
         pass
@@ -59,6 +62,10 @@ class Run:
     @property
     def history(self):
         return self.tables["history"]
+
+    @property
+    def growth(self):
+        return self.tables["growth"]
 
     def tip(self, end, crack=None):
         """Return the rows of one tip, of the crack named or of the only one."""

@@ -56,7 +56,7 @@ def _material_facts(deck, name, material) -> dict:
         f"{name}: waves": f"{wave_speed(material):.5g} m/s dilational, {shear_speed:.5g} m/s shear",
         f"{name}: K from J": f"K^2 = {stiffness:.5g} Pa * J",
     }
-    if material.toughness is not None:
+    if material.K_Ic_of(deck.analysis) is not None:
         K, G = material.K_Ic_of(deck.analysis), material.G_Ic_of(deck.analysis)
         facts[f"{name}: toughness"] = f"K_Ic = {K:.5g} Pa*m^0.5, G_Ic = {G:.5g} J/m^2"
     return facts

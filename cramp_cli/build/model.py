@@ -3,6 +3,7 @@
 import numpy as np
 
 from cramp_cli.build.conditions import build_conditions
+from cramp_cli.build.growth import build_propagation
 from cramp_cli.build.laws import law_of
 from cramp_cli.cracks.contact import LAWS, ContactLaws
 from cramp_cli.cracks.tips import Fracture
@@ -11,11 +12,12 @@ from cramp_cli.materials.geometry import PlaneStrain, PlaneStress
 from cramp_cli.materials.law import confined_modulus, memory
 from cramp_cli.shapes.linear import Linear
 from cramp_cli.shapes.ugimp import UniformGimp
+from cramp_cli.state.bands import band_starts, sorted_by_cell
+from cramp_cli.state.growth import make_growth
 from cramp_cli.state.lattice import Lattice
 from cramp_cli.state.model import SCHEMES, Block, Model, State, TipNodes, no_energy
 from cramp_cli.state.particles import Particles, particles_at
 from cramp_cli.state.paths import EDGE, PLAIN, TIP, Paths, make_paths
-from cramp_cli.transfer.bands import band_starts, sorted_by_cell
 from cramp_cli.transfer.update import Flip, Fmpm, Xpic
 
 GEOMETRIES = {"plane_strain": PlaneStrain, "plane_stress": PlaneStress}
@@ -36,10 +38,10 @@ def build(deck: Deck) -> tuple[Model, State]:
     blocks, particles = _fill(deck, lattice, seeds)
     paths = _paths(deck, lattice)
     conditions, obstacles = build_conditions(deck, lattice, particles, blocks, paths)
-    settings = deck.fracture
+    settings, geometry = deck.fracture, GEOMETRIES[deck.analysis](deck.thickness)
     model = Model(
         lattice=lattice,
-        geometry=GEOMETRIES[deck.analysis](deck.thickness),
+        geometry=geometry,
         blocks=blocks,
         update=_update(deck.solver),
         scheme=SCHEMES[deck.solver.strain],
@@ -57,10 +59,20 @@ def build(deck: Deck) -> tuple[Model, State]:
             terms=settings.contour.terms,
             obstacles=obstacles,
         ),
+        propagation=build_propagation(deck, blocks, geometry),
     )
     reactions = np.zeros((len(conditions.names), len(lattice.cells)))
     bands = [b.lo + band_starts(lattice, particles.position[b.lo : b.hi]) for b in blocks]
-    return model, State(0.0, 0, particles, paths, no_energy(), reactions, np.array(bands))
+    return model, State(
+        time=0.0,
+        step=0,
+        particles=particles,
+        paths=paths,
+        books=no_energy(),
+        reactions=reactions,
+        bands=np.array(bands),
+        growth=make_growth(paths),
+    )
 
 
 def build_lattice(deck: Deck) -> Lattice:

@@ -15,7 +15,9 @@ from cramp_cli.materials.law import same_law
 from cramp_cli.numerics.kernel import kernel
 from cramp_cli.numerics.tensor import matrix, product, rotation_of, vector, zero_matrix
 from cramp_cli.shapes.shape import offsets, weights
+from cramp_cli.state.bands import band_axis, runs_between
 
+SEEN = 3  # rows of cells within which a particle may see a node
 FULL = 0.75  # a contour node that sees less of a full cell lies at or beyond the edge of the body
 
 
@@ -156,23 +158,27 @@ class _Walk:
         self.model, self.scratch, self.crack, self.box = model, scratch, crack, box
         self.nodes = len(scratch.rows.first)
         sums = np.zeros((box.wide * box.high + int(scratch.rows.count[0]), 11))
-        for b in model.blocks:
-            sum_fields(
-                sums,
-                state.particles,
-                scratch.stencil,
-                b.shape,
-                model.strides,
-                box,
-                self.nodes,
-                b.lo,
-                b.hi,
-            )
+        across = band_axis(model.lattice.cells)
+        low, count = ((box.i, box.wide), (box.j, box.high))[across]
+        runs = runs_between(state.bands, low - SEEN, low + count + SEEN)
+        place = (model.strides, box, self.nodes)
+        for b, (lo, hi) in zip(model.blocks, runs, strict=True):
+            sum_fields(sums, state.particles, scratch.stencil, b.shape, *place, lo, hi)
         self.cell = model.lattice.width**2 * model.geometry.thickness
         self.volume, self.sums = sums[:, 10], sums[:, :10]
+        self.segments = self._segments_near()
         self.crossings = 0
         self.other_cracks = 0
         self.empty = 0
+
+    def _segments_near(self):
+        """Return the segments of all cracks that may meet the contour."""
+        box, lattice, used = self.box, self.model.lattice, int(self.scratch.segments.used[0])
+        ends = self.scratch.segments.real[:used].reshape(used, 2, 2)
+        corner = np.array([[box.i - 1, box.j - 1], [box.i + box.wide, box.j + box.high]])
+        lower, upper = lattice.lower + lattice.width * corner
+        near = (ends.max(axis=1) >= lower) & (ends.min(axis=1) <= upper)
+        return np.flatnonzero(near.all(axis=1)).tolist()
 
     def line_integral(self):
         """Return the line integrals of q_x and q_y, counter-clockwise."""
@@ -261,7 +267,7 @@ class _Walk:
         p = [low + lattice.width * c for low, c in zip(lattice.lower, here, strict=True)]
         n = [low + lattice.width * c for low, c in zip(lattice.lower, there, strict=True)]
         found = []
-        for s in range(int(segments.used[0])):
+        for s in self.segments:
             if crosses(segments.real, segments.down, s, *p, *n, ON_CRACK * lattice.width):
                 if segments.crack[s] == self.crack:
                     found.append(_fraction(p, n, segments.real[s]))

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from cramp_cli.cracks.cloud import Cloud, cloud_around
 from cramp_cli.cracks.contact import GLUED, IGNORE, OPEN
 from cramp_cli.cracks.contour_integral import along, integrate_contour
 from cramp_cli.cracks.domain_integral import (
@@ -26,17 +27,24 @@ from cramp_cli.cracks.intensity import K_from_J, open_and_slide, opening_near_ti
 from cramp_cli.cracks.room import find_room
 from cramp_cli.materials.geometry import is_plane_stress
 from cramp_cli.materials.law import poisson_ratio, same_law, shear_modulus
+from cramp_cli.state.growth import BLEND, HELD, KINK
 from cramp_cli.state.measures import from_history
 from cramp_cli.state.particles import DISSIPATED
 from cramp_cli.state.paths import TIP
 
 BESIDE = 3.0  # cells behind a tip and beside the crack in which the sides are told apart
 USUAL, SMALLEST = 5.0, 2.5  # radius of the domain in cells, and the least that gives a number
+REACH = 8.0  # cells around a tip or the corner of a kink that an integral can want
 SPREAD = (0.8, 1.0, 1.2)  # radii that are compared, in shares of the radius
 DOUBTFUL = 0.2  # share by which two numbers for one J may differ
 NOISE = 0.01  # share of the strain energy around the tip that is no J
 ROUND_OFF = 1e-12  # a strain that is none
 TAKEN = 0.01  # share of the work around the tip that plastic and viscous strain may have taken
+STAGES = {
+    KINK: "kink: from the field around the corner",
+    BLEND: "kink: partly from the field around the corner",
+    HELD: "held: no room for a domain, the last load found",
+}
 LEAK = 0.02  # part of the domain that may be empty: particles are a coarse quadrature
 
 
@@ -70,6 +78,7 @@ class Site:
     """What the integrals around a tip need to know."""
 
     frame: TipFrame
+    cloud: Cloud  # the particles around it
     block: Any  # the particles of the material at the tip
     hooke: Hooke
     gravity: Any  # acceleration of everything (m/s^2)
@@ -93,7 +102,7 @@ def sample_tips(model, state, scratch) -> list[dict]:
 
 
 def _sample(model, state, scratch, tip) -> dict:
-    paths, site = state.paths, site_of(model, state, tip)
+    paths, site = state.paths, site_of(model, state, scratch, tip)
     place, now = paths.point[tip.points[0]], tip.direction(paths.point)
     normal, slide = open_and_slide(opening_near_tip(paths, tip.crack, tip.end), now)
     if paths.fixed[tip.crack]:  # its surfaces do not move: no opening is known
@@ -107,41 +116,51 @@ def _sample(model, state, scratch, tip) -> dict:
         "y": float(place[1]),
         "angle": float(np.arctan2(now[1], now[0])),
         "length": crack_length(paths, tip.crack),
-        "speed": 0.0,
+        "speed": float(state.growth.speed[2 * tip.crack + tip.end]),
         "K_III": 0.0,
         "ctod_n": normal,
         "ctod_t": slide,
     }
     unmeasured = {"J": nan, "K_I": nan, "K_II": nan, "J_spread": nan}
     row |= unmeasured | {"J_contour": nan, "K_I_contour": nan, "K_II_contour": nan}
-    remarks = []
+    remarks, grown = [], state.growth.length[2 * tip.crack + tip.end] > 0.0
     if "domain" in model.fracture.methods:
-        measured, remark = _measure_domain(model, state, scratch, tip, site)
+        measure = _recall_growth if grown else _measure_domain
+        measured, remark = measure(model, state, scratch, tip, site)
         row |= measured
         remarks.append(remark)
     if "contour" in model.fracture.methods:
         measured, remark = _measure_contour(model, state, scratch, tip, site, normal, slide)
         row |= measured
         remarks.append(remark)
-    if not any("closed" in remark for remark in remarks):
-        remarks.append(_doubt(model, state, site, row))
+    if not (grown or any("closed" in remark for remark in remarks)):  # J of a moving tip is its own
+        remarks.append(_doubt(model, site, row))
     remarks += _of_law(model, state, site)
     return row | {"status": "; ".join(filter(None, remarks)) or "ok"}
 
 
-def site_of(model, state, tip) -> Site:
+def site_of(model, state, scratch, tip) -> Site:
     """Return what the integrals around a tip need to know."""
     paths = state.paths
     place = paths.origin[tip.points[0]]
-    before = tip.direction(paths.origin)
+    return site_at(model, state, scratch, tip.crack, place, tip.direction(paths.origin))
+
+
+def site_at(model, state, scratch, crack, place, before) -> Site:
+    """Return what integrals around a place of a crack need to know.
+
+    place: in the undeformed body (m); before: unit vector along the crack there
+    """
     frame = TipFrame(tuple(place.tolist()), before, before)
-    block = block_at(model, state.particles, place)
+    reach = max(REACH * model.lattice.width, SPREAD[-1] * max(model.fracture.radii, default=0.0))
+    cloud = cloud_around(model, state, scratch, place, reach)
+    block = block_at(model, cloud, place)
     gravity = model.conditions.body_force(state.time, len(model.strides))
-    half = bool(paths.mirror[tip.crack, 0] >= 0)
+    half = bool(state.paths.mirror[crack, 0] >= 0)
     if not half:
-        frame = turned_with_solid(model, state.particles, frame)
-        frame = between_particles(model, state.particles, frame)
-    return Site(frame, block, hooke_of(block.law, model.geometry), gravity, half)
+        frame = turned_with_solid(model, cloud.particles, frame)
+        frame = between_particles(model, cloud, frame)
+    return Site(frame, cloud, block, hooke_of(block.law, model.geometry), gravity, half)
 
 
 def turned_with_solid(model, particles, frame) -> TipFrame:
@@ -158,7 +177,7 @@ def turned_with_solid(model, particles, frame) -> TipFrame:
     return frame._replace(now=(float(c * ex - s * ey), float(s * ex + c * ey)))
 
 
-def between_particles(model, particles, frame) -> TipFrame:
+def between_particles(model, cloud, frame) -> TipFrame:
     """Return the frame of a tip moved to the line that parts the particles of both sides.
 
     Particles belong to one side as wholes, so the faces of the discrete body lie midway between
@@ -166,7 +185,7 @@ def between_particles(model, particles, frame) -> TipFrame:
     leak into K_II by a percent at ten cells per half crack.
     """
     length, thickness = BESIDE * model.lattice.width, model.geometry.thickness
-    sides = [material_beside(particles, frame, length, b.lo, b.hi) for b in model.blocks]
+    sides = [material_beside(cloud.particles, frame, length, lo, hi) for _, lo, hi in cloud.parts]
     above, below = (sum(side) / (0.5 * length * thickness) for side in zip(*sides, strict=True))
     if abs(above + below - length) > LEAK * length:
         return frame
@@ -174,10 +193,12 @@ def between_particles(model, particles, frame) -> TipFrame:
     return frame._replace(origin=(x - off * ey, y + off * ex))
 
 
-def block_at(model, particles, place):
+def block_at(model, cloud, place):
     """Return the block of the particle nearest to a place in the undeformed body (m)."""
-    nearest = int(np.argmin(np.sum((particles.origin - place) ** 2, axis=1)))
-    return next(b for b in model.blocks if b.lo <= nearest < b.hi)
+    if not cloud.parts:
+        return model.blocks[0]
+    nearest = int(np.argmin(np.sum((cloud.particles.origin - place) ** 2, axis=1)))
+    return next(block for block, lo, hi in cloud.parts if lo <= nearest < hi)
 
 
 def hooke_of(law, geometry) -> Hooke:
@@ -199,6 +220,13 @@ def _measure_contour(model, state, scratch, tip, site, normal, slide):
     return {"J_contour": J, "K_I_contour": K_I, "K_II_contour": K_II}, ""
 
 
+def _recall_growth(model, state, scratch, tip, site):
+    """A tip that has grown has the load that drove it in the last step (tip_load.py)."""
+    k = 2 * tip.crack + tip.end
+    J, K_I, K_II = state.growth.load[k].tolist()
+    return {"J": J, "K_I": K_I, "K_II": K_II}, STAGES.get(int(state.growth.stage[k]), "")
+
+
 def _measure_domain(model, state, scratch, tip, site):
     paths, radii, width = state.paths, model.fracture.radii, model.lattice.width
     wanted, least = radii[0] if radii else USUAL * width, (1.0 - 1e-9) * SMALLEST * width
@@ -208,7 +236,7 @@ def _measure_domain(model, state, scratch, tip, site):
     radius, remark = (room, what) if room < wanted else (wanted, "")
     measured = None
     while radius >= least and measured is None:
-        *values, spoiled = domain_values(model, state.particles, site, radius)
+        *values, spoiled = domain_values(model, site, radius)
         if spoiled:
             radius, remark = 0.9 * radius, spoiled
         else:
@@ -217,27 +245,24 @@ def _measure_domain(model, state, scratch, tip, site):
         return {}, f"invalid: {remark} is nearer than {wanted / width:.3g} cells"
     J, K_I, K_II = measured
     others = [r for r in radii[1:] or [s * radius for s in SPREAD] if r <= room]
-    spread = _spread(J, [domain_values(model, state.particles, site, r) for r in others])
+    spread = _spread(J, [domain_values(model, site, r) for r in others])
     status = f"shrunk: {remark} within {wanted / width:.3g} cells" if remark else ""
-    closed = K_I < 0.0 and model.contact.kind[tip.crack] != IGNORE  # faces can not overlap
-    if closed or _is_closed(model, scratch, tip, paths.point[tip.points[0]], radius):
+    if is_closed(model, scratch, tip.crack, paths.point[tip.points[0]], radius, K_I):
         K_I, status = 0.0, "; ".join(filter(None, ["closed", status]))
     return {"J": J, "K_I": K_I, "K_II": K_II, "J_spread": spread}, status
 
 
-def _doubt(model, state, site, row) -> str:
+def _doubt(model, site, row) -> str:
     """Say so where two numbers for the same thing are far apart.
 
     J that is not that of K: the field around the tip is not that of a crack. A contour far from a
     domain: the contour misses something. What is nothing beside the strain energy around the tip is
     noise.
     """
-    radius = USUAL * model.lattice.width
-    near = np.hypot(*(state.particles.origin - site.frame.origin).T) < radius
-    energy = (
-        float(state.particles.work[near].sum()) / max(int(near.sum()), 1)
-        + ROUND_OFF**2 * site.hooke.stiffness
-    )
+    radius, particles = USUAL * model.lattice.width, site.cloud.particles
+    near = np.hypot(*(particles.origin - site.frame.origin).T) < radius
+    energy = float(particles.work[near].sum()) / max(int(near.sum()), 1)
+    energy += ROUND_OFF**2 * site.hooke.stiffness
     J, of_K = row["J"], (row["K_I"] ** 2 + row["K_II"] ** 2) / site.hooke.stiffness
     texts = {
         "doubtful: J and that of K differ by {:.0f} %": (J, of_K),
@@ -272,16 +297,19 @@ def _spread(J, others) -> float:
     return (max(*values, J) - min(*values, J)) / abs(J) if J else 0.0
 
 
-def domain_values(model, particles, site, radius):
-    """Return J, K_I, K_II of a domain, and what spoils it: an empty text if it is full."""
-    inner = inner_radius(radius, model.lattice.width)
+def domain_values(model, site, radius, inner=None):
+    """Return J, K_I, K_II of a domain, and what spoils it: an empty text if it is full.
+
+    inner: radius (m) within which the weight is 1; chosen if not given
+    """
+    inner = inner_radius(radius, model.lattice.width) if inner is None else inner
     sums, own = np.zeros(4), 0.0
-    for b in model.blocks:
+    for block, lo, hi in site.cloud.parts:
         part = integrate_domain(
-            particles, site.frame, site.hooke, site.gravity, inner, radius, b.lo, b.hi
+            site.cloud.particles, site.frame, site.hooke, site.gravity, inner, radius, lo, hi
         )
         sums += part
-        own += part[3] if same_law(b.law, site.block.law) else 0.0
+        own += part[3] if same_law(block.law, site.block.law) else 0.0
     per_length = (2.0 if site.half else 1.0) / model.geometry.thickness
     J, K_I, K_II, filled = (per_length * sums).tolist()
     expected = integral_of_weight(inner, radius)
@@ -300,11 +328,14 @@ def crack_length(paths, crack: int) -> float:
     return float(np.hypot(*np.diff(middle, axis=0).T).sum())
 
 
-def _is_closed(model, scratch, tip, place, radius) -> bool:
-    """Return whether most nodes on the crack within the domain have touching sides."""
-    if model.contact.kind[tip.crack] == IGNORE:
+def is_closed(model, scratch, crack, place, radius, K_I) -> bool:
+    """Return whether most nodes on a crack within a domain have touching sides, or K_I is negative.
+
+    place: centre of the domain now (m); faces that ignore each other are never closed
+    """
+    if model.contact.kind[crack] == IGNORE:
         return False
-    if model.contact.kind[tip.crack] == GLUED:
+    if model.contact.kind[crack] == GLUED or K_I < 0.0:  # faces can not overlap
         return True
     rows, lattice = scratch.rows, model.lattice
     n = int(rows.count[0])
@@ -314,7 +345,7 @@ def _is_closed(model, scratch, tip, place, radius) -> bool:
         lattice.lower
     )
     near = np.sum((at - place) ** 2, axis=1) < radius**2
-    mine = (rows.crack[:n, 0] == tip.crack) & near
+    mine = (rows.crack[:n, 0] == crack) & near
     if not mine.any():
         return False
     return bool(np.mean(rows.touching[:n, 0][mine] != OPEN) > 0.5)

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from math import sqrt
-from typing import Literal
+from typing import ClassVar, Literal
 
 from pydantic import Field
 
@@ -17,6 +17,8 @@ class OrthotropicSection(Solid):
     Axes 1 and 2 lie in the plane of the analysis, 3 is normal to it. nu12 is the contraction along
     2 of a bar pulled along 1.
     """
+
+    toughness: ClassVar[None] = None  # without K nothing can grow
 
     law: Literal["orthotropic"] = Field("orthotropic", description="kind of material")
     E1: Stress = Field(gt=0, description="Young's modulus along axis 1")
@@ -55,6 +57,8 @@ class OrthotropicSection(Solid):
 
 class TransverseSection(Solid):
     """An elastic solid that is isotropic across its fibres."""
+
+    toughness: ClassVar[None] = None
 
     law: Literal["transverse"] = Field("transverse", description="kind of material")
     E_axial: Stress = Field(gt=0, description="Young's modulus along the fibres")

@@ -11,11 +11,13 @@ from cramp_cli.deck.boundary import BoundarySection
 from cramp_cli.deck.checks import geometry_mistakes, name_mistakes
 from cramp_cli.deck.crack_checks import crack_warnings
 from cramp_cli.deck.cracks import AnyContact, ContactSection, CrackSection
+from cramp_cli.deck.growth_checks import growth_mistakes
 from cramp_cli.deck.lattice import Box
 from cramp_cli.deck.loads import AnyLoad
 from cramp_cli.deck.materials import AnyMaterial
 from cramp_cli.deck.overrides import apply_overrides
 from cramp_cli.deck.parts import parts_of, salvage
+from cramp_cli.deck.propagation import PropagationSection
 from cramp_cli.deck.run import FractureSection, OutputSection, SolverSection
 from cramp_cli.deck.solids import Isotropic
 from cramp_cli.deck.write import to_yaml
@@ -56,6 +58,9 @@ class Deck(Section):
     solver: SolverSection = Field(description="time steps")
     fracture: FractureSection = Field(
         default_factory=FractureSection, description="J, K_I and K_II at the tips"
+    )
+    propagation: PropagationSection | None = Field(
+        None, description="when, where to and how fast cracks grow; they do not if not given"
     )
     output: OutputSection = Field(default_factory=OutputSection, description="what is written")
 
@@ -123,6 +128,7 @@ def check_deck(source: Source, folder: Path) -> Deck:
         found += [source.mistake(*error) for error in explain(failure, data)]
         parts = salvage(data, folder)
     wrong = [*name_mistakes(data), *geometry_mistakes(parts)]
+    wrong += growth_mistakes(deck) if deck is not None else ()
     found += [source.mistake(*one) for one in wrong]
     if found or deck is None:
         raise DeckError(found)
@@ -139,7 +145,11 @@ def _filled(deck: Deck) -> Deck:
     fracture = {"every": deck.fracture.every or every}
     pieces = [crack.segment or deck.grid.cell / 2.0 for crack in deck.cracks]
     cracks = zip(deck.cracks, pieces, strict=True)
+    growth = deck.propagation
+    if growth is not None:
+        growth = growth.model_copy(update={"piece": growth.piece or deck.grid.cell / 2.0})
     update = {
+        "propagation": growth,
         "output": deck.output.model_copy(update=times),
         "fracture": deck.fracture.model_copy(update=fracture),
         "cracks": tuple(crack.model_copy(update={"segment": piece}) for crack, piece in cracks),

@@ -81,7 +81,9 @@ class ViscoelasticSection(Elastic):
     prony: Prony = Field(description="parts of the shear modulus that relax")
 
     def wrong_values(self) -> Iterator[Wrong]:
-        """No more than the whole modulus relaxes."""
+        """No more than the whole modulus relaxes; without K nothing can grow."""
+        if self.toughness is not None:
+            yield ("toughness",), "does not go with viscoelastic, where K is not known; remove it"
         total = sum(part.share for part in self.prony)
         if total > 1.0 + 1e-12:
             yield ("prony",), f"the shares must sum to at most 1 (got {total:.6g})"

@@ -27,6 +27,7 @@ LATER = {
     ("OutputSection", "every"): "`solver.end_time` / 100",
     ("OutputSection", "history_every"): "`output.every` / 10",
     ("Frictional", "mu_static"): "`mu`",
+    ("PropagationSection", "piece"): "half a cell",
 }
 FAMILIES = {
     "shape": "shape",
@@ -37,6 +38,7 @@ FAMILIES = {
     "materials": "material",
     "anisotropic": "material",
     "hardening": "hardening",
+    "propagation": "speed law",
 }
 TITLES = {
     "Deck": "The deck",

@@ -4,22 +4,52 @@ from collections.abc import Iterator
 
 from pydantic import Field
 
-from cramp_cli.schema.section import Section, Wrong, only_one
-from cramp_cli.schema.units import Density, EnergyToughness, Number, Stress, StressIntensity
+from cramp_cli.schema.section import Section, Wrong, listed
+from cramp_cli.schema.units import (
+    Density,
+    EnergyToughness,
+    Length,
+    Number,
+    Stress,
+    StressIntensity,
+)
+
+AGREE = 0.01  # K_Ic and G_Ic of one material may differ by this share of G_Ic
+NEEDED = {  # by a criterion of growth: one of each group
+    "max_hoop_stress": (("K_Ic", "G_Ic"),),
+    "max_energy_release_rate": (("K_Ic", "G_Ic"),),
+    "strain_energy_density": (("K_Ic", "G_Ic"),),
+    "empirical": (("K_Ic", "G_Ic"), ("K_IIc",)),
+    "max_ctod": (("delta_Ic", "delta_IIc"),),
+    "critical_J": (("K_Ic", "G_Ic"),),
+    "steady_state": (("K_Ic", "G_Ic"),),
+}
 
 
 class Toughness(Section):
-    """What a crack needs to grow: a stress intensity or an energy per area."""
+    """What a crack needs to grow; K_Ic or G_Ic, and what the criterion asks for."""
 
     K_Ic: StressIntensity | None = Field(
         None, gt=0, description="critical stress intensity, mode I"
     )
     G_Ic: EnergyToughness | None = Field(None, gt=0, description="critical energy release rate")
+    K_IIc: StressIntensity | None = Field(
+        None, gt=0, description="critical stress intensity, mode II (criterion: empirical)"
+    )
+    delta_Ic: Length | None = Field(None, gt=0, description="critical opening (max_ctod)")
+    delta_IIc: Length | None = Field(None, gt=0, description="critical sliding (max_ctod)")
 
     @classmethod
     def wrong_keys(cls, keys: set[str]) -> Iterator[Wrong]:
-        """One of the two is enough; both could contradict each other."""
-        yield from only_one(keys, ("K_Ic", "G_Ic"))
+        """It says something."""
+        if not keys & set(cls.model_fields):
+            yield (), f"give one of {listed(cls.model_fields)}"
+
+    def lacks(self, criterion: str) -> list[str]:
+        """Return what a criterion of growth needs and is not given, one text for each."""
+        groups = NEEDED[criterion]
+        given = self.model_fields_set
+        return [" or ".join(group) for group in groups if not given & set(group)]
 
 
 class Solid(Section):
@@ -39,18 +69,17 @@ class Isotropic(Solid):
         return self.young if analysis == "plane_stress" else self.young / (1.0 - self.poisson**2)
 
     def K_Ic_of(self, analysis: str) -> float | None:  # noqa: N802 (the word of the field)
-        """Critical stress intensity in mode I (Pa m^0.5); None without toughness."""
-        if self.toughness is None:
-            return None
-        if self.toughness.K_Ic is not None:
+        """Critical stress intensity in mode I (Pa m^0.5); None if it is not known."""
+        G_Ic = self.G_Ic_of(analysis)
+        if self.toughness is not None and self.toughness.K_Ic is not None:
             return self.toughness.K_Ic
-        return (self.toughness.G_Ic * self.plane_modulus(analysis)) ** 0.5
+        return None if G_Ic is None else (G_Ic * self.plane_modulus(analysis)) ** 0.5
 
     def G_Ic_of(self, analysis: str) -> float | None:  # noqa: N802 (the word of the field)
-        """Critical energy release rate in mode I (J/m^2); None without toughness."""
+        """Critical energy release rate in mode I (J/m^2); None if it is not known."""
         if self.toughness is None:
             return None
-        if self.toughness.G_Ic is not None:
+        if self.toughness.G_Ic is not None or self.toughness.K_Ic is None:
             return self.toughness.G_Ic
         return self.toughness.K_Ic**2 / self.plane_modulus(analysis)
 

@@ -6,6 +6,7 @@ hash of all sources that kernels are made of: change any of them and everything 
 """
 
 import hashlib
+import json
 import os
 import tempfile
 from pathlib import Path
@@ -46,6 +47,27 @@ def cache_root() -> Path:
 def cache_folder() -> Path:
     """Return the cache folder of exactly these kernels."""
     return cache_root() / source_hash(WITH_KERNELS)
+
+
+def recall(name: str) -> dict:
+    """Return what an earlier run has remembered under a name; nothing if it can not be read."""
+    try:
+        found = json.loads((cache_root() / f"{name}.json").read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+    return found if isinstance(found, dict) else {}
+
+
+def remember(name: str, things: dict) -> None:
+    """Keep a dictionary for later runs, if there is a place for it."""
+    path = cache_root() / f"{name}.json"
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        part = path.with_name(f"{path.name}.{os.getpid()}")
+        part.write_text(json.dumps(things), encoding="utf-8")
+        part.replace(path)
+    except OSError:
+        return
 
 
 def _nearest_existing(path: Path) -> Path:

@@ -10,9 +10,10 @@ from cramp_cli.numerics.dispatch import by_length
 
 __all__ = [
     "add_outer", "added", "apply", "columns", "congruent", "determinant", "deviator", "dot",
-    "from_columns", "in_cells", "increment", "left_cauchy_green", "matrix", "outer", "outer_sum",
-    "pick", "plus", "product", "rotation_of", "scaled", "six", "solid_matrix", "solid_strain",
-    "square_of", "squared", "store", "symmetric", "times", "transposed", "turn", "vector",
+    "from_columns", "in_cells", "increment", "kept", "left_cauchy_green", "matrix", "outer",
+    "outer_sum", "pick", "plus", "product", "rotation_of", "scaled", "six", "solid_matrix",
+    "solid_strain", "square_of", "squared", "store", "symmetric", "times", "transposed", "turn",
+    "vector",
     "vector_of", "whole", "within", "work_of", "zero_matrix",
 ]  # fmt: skip
 
@@ -229,6 +230,21 @@ def _(v, g, A):
         A[3] + v[1] * g[0], A[4] + v[1] * g[1], A[5] + v[1] * g[2],
         A[6] + v[2] * g[0], A[7] + v[2] * g[1], A[8] + v[2] * g[2],
     )  # fmt: skip
+
+
+@by_length
+def kept(like, T):
+    """Return the components that are stored of a symmetric tensor of six; `like` is a matrix."""
+
+
+@kept.implement(4)
+def _(like, T):
+    return T[:4]
+
+
+@kept.implement(9)
+def _(like, T):
+    return T
 
 
 @by_length

@@ -18,7 +18,10 @@ HISTORY_COLUMNS = {
     "dt": ("s", "length of the last time step"),
     "kinetic_energy": ("J", "kinetic energy of the particles"),
     "strain_energy": ("J", "elastic energy stored in the particles"),
-    "fracture_energy": ("J", "energy spent on new crack surface"),
+    "fracture_energy": (
+        "J",
+        "sum of J da of all growth; not part of energy_error (theory: growth)",
+    ),
     "friction_energy": ("J", "energy spent by friction of crack faces and bodies"),
     "plastic_energy": ("J", "energy spent in plastic and viscous strain"),
     "damping_energy": (

@@ -8,8 +8,9 @@ import difflib
 import re
 from fractions import Fraction
 from functools import lru_cache
+from importlib.metadata import version
 
-from cramp_cli.numerics.cache import cache_root
+from cramp_cli.numerics.cache import cache_root, recall, remember
 
 COMMON = (
     *("m", "mm", "um", "nm", "cm", "km", "in", "ft", "s", "ms", "us", "ns", "min", "h"),
@@ -73,7 +74,19 @@ def _multiply(powers: dict[str, float], name: str, power: Fraction) -> float | F
 
 @lru_cache(maxsize=256)
 def _named(name: str) -> tuple[Fraction, dict[str, float]]:
-    import pint  # late: 0.7 s, and a deck in plain numbers never needs it
+    """Return factor and base units of a name, from pint or from what it said in an earlier run."""
+    store = f"units-{version('pint')}"
+    known = recall(store)
+    if name not in known:
+        scale, powers = _looked_up(name)
+        remember(store, known | {name: [str(scale), powers]})
+        return scale, powers
+    scale, powers = known[name]
+    return Fraction(scale), powers
+
+
+def _looked_up(name: str) -> tuple[Fraction, dict[str, float]]:
+    import pint  # late: 0.5 s, and most decks have units that it has told before
 
     try:
         scale, bases = _registry().get_base_units(name)

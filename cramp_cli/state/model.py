@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from cramp_cli.state.grid import Grid, Rows
+from cramp_cli.state.growth import Growth
 from cramp_cli.state.lattice import Lattice
 from cramp_cli.state.particles import Particles
 from cramp_cli.state.paths import Paths
@@ -53,6 +54,7 @@ class Books(NamedTuple):
     external: np.ndarray  # work of loads and moving boundaries
     damping: np.ndarray  # taken by damping
     friction: np.ndarray  # work of friction on crack faces
+    fracture: np.ndarray  # spent on new crack surface
 
 
 @dataclass(frozen=True)
@@ -71,6 +73,7 @@ class Model:
     contact: Any  # ContactLaws
     conditions: Any  # boundary conditions and loads
     fracture: Any = None  # how J and K are evaluated
+    propagation: Any = None  # when, where to and how fast cracks grow; None: they do not
     tip_nodes: TipNodes | None = None  # None: cut at once, by the line test alone (the paper)
     strides: tuple = field(init=False)
 
@@ -90,6 +93,7 @@ class State:
     books: Books
     reactions: np.ndarray  # (named boundaries, dim) of the last step (N)
     bands: np.ndarray  # (blocks, bands + 1) first particle of each band
+    growth: Growth
 
 
 @dataclass
@@ -105,6 +109,7 @@ class Scratch:
     per_band: np.ndarray  # (bands,) sums over the particles of a band
     shared: list = field(default_factory=list)  # for each block: its particles, shared out
     index: np.ndarray | None = None  # (n,) where the particle of each number is
+    origins: Any = None  # numbers of the particles by the cells in which they started
     held: list | None = None  # rows held by each velocity condition, and their number
     free: list | None = None  # nodes of each symmetry plane that lie on its crack
 
@@ -116,4 +121,4 @@ class Scratch:
 
 def no_energy() -> Books:
     """Return books in which nothing is written."""
-    return Books(np.zeros(1), np.zeros(1), np.zeros(1))
+    return Books(np.zeros(1), np.zeros(1), np.zeros(1), np.zeros(1))

@@ -1,36 +1,39 @@
-"""The equation of motion in every row."""
+"""The equation of motion in every row; strides tell the dimension."""
 
 from cramp_cli.numerics.kernel import kernel
+from cramp_cli.numerics.tensor import plus, store, times, vector
 
 
 @kernel
-def advance_momentum(grid, count, dt):
+def inverse(mass, row):
+    """Return 1/m of a row, zero without mass."""
+    return 1.0 / mass[row] if mass[row] > 0.0 else 0.0
+
+
+@kernel
+def advance_momentum(grid, count, strides, dt):
     """Set p+ = p + f dt."""
     mass, momentum, force = grid.mass, grid.momentum, grid.force
     for row in range(count):
         if mass[row] > 0.0:
-            for d in range(momentum.shape[1]):
-                momentum[row, d] += force[row, d] * dt
+            p, f = vector(strides, momentum, row), vector(strides, force, row)
+            store(plus(p, dt, f), momentum, row, 0)
 
 
 @kernel
-def find_velocity(grid, count):
+def find_velocity(grid, count, strides):
     """Set v = p/m; a row without mass stays at rest."""
     mass, momentum, velocity = grid.mass, grid.momentum, grid.velocity
     for row in range(count):
-        over = 1.0 / mass[row] if mass[row] > 0.0 else 0.0
-        for d in range(momentum.shape[1]):
-            velocity[row, d] = momentum[row, d] * over
+        store(times(vector(strides, momentum, row), inverse(mass, row)), velocity, row, 0)
 
 
 @kernel
-def find_acceleration(grid, count):
+def find_acceleration(grid, count, strides):
     """Set a = f/m; a row without mass has none."""
     mass, force, acceleration = grid.mass, grid.force, grid.acceleration
     for row in range(count):
-        over = 1.0 / mass[row] if mass[row] > 0.0 else 0.0
-        for d in range(force.shape[1]):
-            acceleration[row, d] = force[row, d] * over
+        store(times(vector(strides, force, row), inverse(mass, row)), acceleration, row, 0)
 
 
 @kernel
@@ -38,14 +41,12 @@ def add_gravity(grid, count, gravity):
     """Add f = m g (gravity: tuple, m/s^2)."""
     mass, force = grid.mass, grid.force
     for row in range(count):
-        for d in range(len(gravity)):
-            force[row, d] += mass[row] * gravity[d]
+        store(plus(vector(gravity, force, row), mass[row], gravity), force, row, 0)
 
 
 @kernel
-def divide_by_mass(field, mass, count):
+def divide_by_mass(field, mass, count, strides):
     """Set field = field / m in rows with mass."""
     for row in range(count):
         if mass[row] > 0.0:
-            for d in range(field.shape[1]):
-                field[row, d] /= mass[row]
+            store(times(vector(strides, field, row), 1.0 / mass[row]), field, row, 0)

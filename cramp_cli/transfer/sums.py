@@ -2,10 +2,10 @@
 
 import numpy as np
 
+from cramp_cli.state.bands import band_axis, band_starts, share_out, sorted_by_cell
 from cramp_cli.state.failure import NumericalFailure
 from cramp_cli.state.health import CAUSES, describe
 from cramp_cli.transfer import to_grid, to_particles
-from cramp_cli.transfer.bands import band_axis, band_starts, share_out, sorted_by_cell
 
 
 def locate_particles(model, state, scratch) -> None:

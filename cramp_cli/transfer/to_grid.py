@@ -4,7 +4,7 @@ A particle far from cracks has its nodes for rows (nodes.py); a particle near on
 entries (state/stencil.py). So each sum is written twice: plain MPM for those far, and for those
 near the same with rows instead of nodes. In the order of the particles they are done run by run.
 
-parts: (k, 3) runs of particles, first and last + 1, and the band they belong to (bands.py)
+parts: (k, 3) runs of particles, first and last + 1, and the band they belong to (state/bands.py)
 """
 
 from numpy import uint64

@@ -2,7 +2,7 @@
 
 As in to_grid.py: plain MPM for particles far from cracks, rows instead of nodes for those near.
 
-parts: (k, 3) runs of particles, first and last + 1, and the band they belong to (bands.py)
+parts: (k, 3) runs of particles, first and last + 1, and the band they belong to (state/bands.py)
 """
 
 from numpy import uint64
@@ -16,6 +16,7 @@ from cramp_cli.numerics.tensor import (
     from_columns,
     in_cells,
     increment,
+    kept,
     matrix,
     plus,
     product,
@@ -31,8 +32,8 @@ from cramp_cli.numerics.tensor import (
     zero_matrix,
 )
 from cramp_cli.shapes.shape import factors, first_nodes, gradients, support, weights
+from cramp_cli.state.bands import HEIGHT, STRAY
 from cramp_cli.state.stencil import AROUND, CLOSE, FAR
-from cramp_cli.transfer.bands import HEIGHT, STRAY
 from cramp_cli.transfer.nodes import give, take, take_both
 from cramp_cli.transfer.rows import add, entry_gradient, first_line
 from cramp_cli.transfer.update import moved
@@ -61,8 +62,7 @@ def locate(stencil, position, shape, lower, strides, nodes, width, head, zone, a
                 gone = number
                 continue
             base[p] = dot(first, strides)
-            for d in range(len(first)):
-                local[p, d] = x[d] - first[d]
+            store(plus(x, -1.0, first), local, p, 0)
             strayed += not lowest <= cell[axis] < highest
             if zone[dot(cell, strides)]:
                 near[p] = CLOSE if head[dot(cell, strides)] >= 0 else AROUND
@@ -131,10 +131,9 @@ def _move_one(particles, p, update, u, a, damping, dt):
     """Move a particle with grid velocity u and acceleration a; return the energy taken (J)."""
     V = vector(u, particles.velocity, p)
     new, mean = moved(update, V, u, a, damping[0], damping[1], dt)
-    for d in range(len(V)):
-        particles.velocity[p, d] = new[d]
-        particles.position[p, d] += dt * mean[d]
-        particles.acceleration[p, d] = a[d]
+    store(new, particles.velocity, p, 0)
+    store(plus(vector(u, particles.position, p), dt, mean), particles.position, p, 0)
+    store(a, particles.acceleration, p, 0)
     free = plus(V, dt, a)
     return 0.5 * particles.mass[p] * dot(plus(free, -1.0, new), plus(V, 1.0, new))
 
@@ -190,9 +189,7 @@ def strain_one(particles, p, law, geometry, gradient, dt, last):
     particles.work[p] += work_of(turned, new, strain)
     stretch[p] *= 1.0 + strain[2] + 0.5 * strain[2] * strain[2]
     store(past, particles.history, p, 0)
-    for c in range(stress.shape[1]):
-        stress[p, c] = new[c]
-    for c in range(len(dU)):
-        F[p, c] = after[c]
-        if last:
-            L[p, c] = gradient[c]
+    store(kept(dU, new), stress, p, 0)
+    store(after, F, p, 0)
+    if last:
+        store(gradient, L, p, 0)

@@ -336,7 +336,7 @@ def test_5_a_disk_that_fills_up_leaves_a_run_that_goes_on(here):
     whole = run_in_pieces(here / "plate.yaml", here / "whole", overrides=[often])
 
     def limit():
-        resource.setrlimit(resource.RLIMIT_FSIZE, (1_200_000, 1_200_000))
+        resource.setrlimit(resource.RLIMIT_FSIZE, (2_000_000, 2_000_000))
 
     words = ("run", "plate.yaml", "--checkpoint-every", "40", "-o", "full")
     done = cramp(*words, "-s", often, preexec_fn=limit)

@@ -8,9 +8,16 @@ from support import advance, build_deck
 
 from cramp_cli.numerics import team
 from cramp_cli.scratch import make_scratch
+from cramp_cli.state.bands import (
+    HEIGHT,
+    STRAY,
+    band_starts,
+    runs_between,
+    share_out,
+    sorted_by_cell,
+)
 from cramp_cli.state.lattice import Lattice
 from cramp_cli.transfer import sums
-from cramp_cli.transfer.bands import HEIGHT, STRAY, band_starts, share_out, sorted_by_cell
 
 # Two halves of two materials meet and turn, with a crack across both and loads on chosen particles;
 # they cross bands, so they are sorted on the way.
@@ -50,6 +57,15 @@ def test_bands_are_sorted_and_whole():
     for band, (lo, hi) in enumerate(zip(starts[:-1], starts[1:], strict=True)):
         row = np.floor((x[lo:hi, 1] + 2.0) / 0.5)
         assert np.all((row >= HEIGHT * band) & (row < HEIGHT * (band + 1)))
+
+
+def test_runs_hold_all_particles_of_some_rows():
+    """Those in a band that may have strayed into the rows as well."""
+    starts = np.array([[0, 10, 20, 30, 40], [40, 40, 50, 50, 60]])
+    assert runs_between(starts, 0, 5) == [(0, 10), (40, 40)]
+    assert runs_between(starts, HEIGHT - STRAY, HEIGHT + STRAY) == [(0, 20), (40, 50)]
+    assert runs_between(starts, HEIGHT + STRAY, 2 * HEIGHT - STRAY) == [(10, 20), (40, 50)]
+    assert runs_between(starts, -9, 99) == [(0, 40), (40, 60)]
 
 
 @pytest.mark.parametrize("workers", [1, 2, 3])

@@ -30,6 +30,7 @@ FIBRES = {
 }  # fmt: skip
 COPPER = {"type": "johnson_cook", "A": 90e6, "B": 292e6, "n": 0.31, "C": 0.025, "m": 1.09}
 VOCE = {"type": "voce", "yield_stress": 2, "saturation": 1, "strain": 1}
+PRONY = [{"share": 0.5, "time": 1}]
 SOIL = SOLID | {"law": "drucker_prager", "cohesion": 1e6, "friction_angle": 30}
 
 
@@ -102,6 +103,10 @@ def material(data):
                 "prony": [{"share": 0.6, "time": 1}, {"share": 0.6, "time": 2}],
             },
             "materials.m.prony: the shares must sum to at most 1 (got 1.2)",
+        ),
+        (
+            SOLID | {"law": "viscoelastic", "prony": PRONY, "toughness": {"G_Ic": 1}},
+            "materials.m.toughness: does not go with viscoelastic, where K is not known; remove it",
         ),
         (
             SOIL | {"dilation_angle": 40},

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from support import advance, build_deck, locate
 
+from cramp_cli.cracks.cloud import cloud_around
 from cramp_cli.cracks.tips import (
     block_at,
     crack_length,
@@ -12,6 +13,7 @@ from cramp_cli.cracks.tips import (
     site_of,
     tips_of,
 )
+from cramp_cli.transfer.sums import sort_particles
 
 PLATE = """
 cramp: 1
@@ -83,10 +85,10 @@ def test_another_crack_shrinks_the_domain():
 def test_the_frame_turns_with_the_solid():
     """Whatever the points of the crack do: the mean rotation of the particles around the tip."""
     crack = {"name": "c", **inner((0, 10), (15, 10), start="edge")}
-    model, state, _ = build_deck(PLATE, cracks=[crack])
+    model, state, scratch = build_deck(PLATE, cracks=[crack])
     state.particles.F[:] = [0.8, -0.6, 0.6, 0.8]
     (tip,) = tips_of(state.paths)
-    frame = site_of(model, state, tip).frame
+    frame = site_of(model, state, scratch, tip).frame
     np.testing.assert_allclose([frame.before, frame.now], [(1.0, 0.0), (0.8, 0.6)], atol=1e-14)
 
 
@@ -108,9 +110,10 @@ def pieces(*materials):
 
 def test_constants_are_those_of_the_material_at_the_tip():
     """Plane stress: kappa = (3 - nu)/(1 + nu), E' = E, nu/(1 + nu) for nu."""
-    model, state, _ = build_deck(PLATE, bodies=pieces("soft", "hard"))
+    model, state, scratch = build_deck(PLATE, bodies=pieces("soft", "hard"))
     for x, E, nu in ((14.9, 2.0, 0.25), (15.1, 20.0, 0.4)):
-        law = block_at(model, state.particles, np.array([x, 10.0])).law
+        place = np.array([x, 10.0])
+        law = block_at(model, cloud_around(model, state, scratch, place, 3.0), place).law
         wanted = (E / (2 + 2 * nu), (3 - nu) / (1 + nu), nu / (1 + nu), E)
         assert tuple(hooke_of(law, model.geometry)) == pytest.approx(wanted, rel=1e-13)
 
@@ -240,3 +243,19 @@ def test_the_end_of_a_symmetry_plane_is_an_obstacle():
     plane = {"where": {"y": 0, "x": [0, 18]}, "symmetry": True}
     row = sampled(crack, boundary=[plane], fracture={"methods": ["domain"]}, **sides)["c0", "end"]
     assert row["status"] == "shrunk: the end of a symmetry plane within 5 cells"
+
+
+def test_a_cloud_holds_all_particles_around_a_place():
+    """Also after they were sorted, and at the corner of the grid."""
+    model, state, scratch = build_deck(PLATE, bodies=pieces("soft", "hard"))
+    state.particles.position[:] = state.particles.position[::-1].copy()  # any other order of cells
+    sort_particles(model, state, scratch)
+    for place in (np.array([15.2, 9.7]), np.array([0.0, 0.0])):
+        cloud = cloud_around(model, state, scratch, place, 4.0)
+        everyone, found = (
+            np.sort(p.id[np.hypot(*(p.origin - place).T) < 4.0])
+            for p in (state.particles, cloud.particles)
+        )
+        np.testing.assert_array_equal(found, everyone)
+        assert len(cloud.particles.id) < len(state.particles.id)
+        assert sum(hi - lo for _, lo, hi in cloud.parts) == len(cloud.particles.id)

@@ -1,5 +1,6 @@
 """Numbers with and without units."""
 
+import os
 import subprocess
 import sys
 from math import pi
@@ -116,10 +117,23 @@ def test_huge_powers_are_refused_quickly(unit):
     assert complaint(units.Length, f"1e300 {unit}")
 
 
-def test_pint_is_imported_only_for_units():
+def imports_pint(text, folder):
+    """Return whether a new process imports pint to read a length, and the length."""
     script = (
         "import sys; from pydantic import TypeAdapter; from cramp_cli.schema.units import Length;"
-        "a = TypeAdapter(Length); a.validate_python(1.0); assert 'pint' not in sys.modules;"
-        "a.validate_python('1 mm'); assert 'pint' in sys.modules"
+        f"print(TypeAdapter(Length).validate_python({text!r}), 'pint' in sys.modules)"
     )
-    subprocess.run([sys.executable, "-c", script], check=True)
+    environment = os.environ | {"CRAMP_CACHE_DIR": str(folder)}
+    command = [sys.executable, "-c", script]
+    said = subprocess.run(command, check=True, env=environment, capture_output=True, text=True)
+    length, imported = said.stdout.split()
+    return imported == "True", float(length)
+
+
+def test_pint_is_imported_only_for_units_that_it_has_not_told_before(tmp_path):
+    assert imports_pint(1.0, tmp_path) == (False, 1.0)
+    assert imports_pint("2.4 mm", tmp_path) == (True, 0.0024)
+    assert imports_pint("2.5 mm", tmp_path) == (False, 0.0025)
+    (store,) = tmp_path.glob("units-*.json")
+    store.write_text("{")
+    assert imports_pint("2.4 mm", tmp_path) == (True, 0.0024)

@@ -104,7 +104,7 @@ def test_orders_are_the_series_of_what_a_round_trip_loses(kind, order):
     meet_rows(model.conditions, scratch, model.lattice.width)
     grid, S = scratch.grid, _dense(model, scratch)
     grid.force[:] = grid.mass[:, None] * chance.normal(size=grid.force.shape)
-    find_acceleration(grid, len(grid.mass))
+    find_acceleration(grid, len(grid.mass), model.strides)
     start = grid.momentum / np.where(grid.mass > 0.0, grid.mass, np.inf)[:, None]
     kick = model.dt * grid.acceleration if kind is Xpic else 0.0
     from_particles = (S * p.mass[:, None]).T / np.where(grid.mass > 0.0, grid.mass, np.inf)[:, None]

@@ -52,6 +52,17 @@ def band_starts(lattice, position) -> np.ndarray:
     return np.searchsorted(row, edges).astype(np.int64)
 
 
+def runs_between(starts, low: int, high: int) -> list[tuple[int, int]]:
+    """Return for each block the particles that may be in the rows of cells low to high - 1.
+
+    starts: (blocks, bands + 1) as in State
+    """
+    last = starts.shape[1] - 2
+    first = min(max((low - STRAY) // HEIGHT, 0), last)
+    end = min(max((high - 1 + STRAY) // HEIGHT, 0), last)
+    return [(int(block[first]), int(block[end + 1])) for block in starts]
+
+
 def share_out(starts, workers: int) -> Bands:
     """Return the bands of a block for a number of threads; starts: (bands + 1,)."""
     parts = np.stack([starts[:-1], starts[1:], np.arange(len(starts) - 1)], axis=1)

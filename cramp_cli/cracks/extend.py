@@ -1,0 +1,45 @@
+"""A crack gets longer: its end moves, or a new piece begins there.
+
+Between steps, in plain numpy. The end itself is closed: both surfaces lie on it.
+"""
+
+import numpy as np
+
+from cramp_cli.cracks.crossing import make_segments
+from cramp_cli.state.paths import Paths
+
+FIELDS = ("point", "origin", "above", "below", "above_velocity", "below_velocity")
+
+
+def end_point(paths: Paths, crack: int, end: int) -> int:
+    """Return the number of the first (0) or last (1) point of a crack."""
+    return int(paths.start[crack + end]) - end
+
+
+def add_point(paths: Paths, crack: int, end: int) -> Paths:
+    """Return cracks with the end point of one of them doubled: the end and a point behind it."""
+    at = end_point(paths, crack, end)
+    start = paths.start.copy()
+    start[crack + 1 :] += 1
+    longer = {
+        name: np.insert(getattr(paths, name), at, getattr(paths, name)[at], axis=0)
+        for name in FIELDS
+    }
+    return paths._replace(start=start, **longer)
+
+
+def move_end(paths: Paths, crack: int, end: int, before, now) -> None:
+    """Move the end of a crack: by `before` in the undeformed body, by `now` in that of now (m)."""
+    at = end_point(paths, crack, end)
+    place = paths.point[at] + now
+    paths.origin[at] += before
+    for field in (paths.point, paths.above, paths.below):
+        field[at] = place
+
+
+def make_room(paths: Paths, segments, node_count: int):
+    """Return lists of segments that hold all pieces of the cracks: the old ones if they do."""
+    wanted = len(paths.point) - paths.crack_count
+    if wanted <= len(segments.crack):
+        return segments
+    return make_segments(node_count, 2 * wanted, 2 * len(segments.item))

@@ -1,0 +1,220 @@
+"""Cracks grow between steps: load, speed, a little way, and what the tip meets there.
+
+A tip moves v dt in every step, as a real number: a smooth tip is felt at any place in its cell. A
+new piece with a new direction begins when the last one is half a cell long (docs/theory/growth.md).
+"""
+
+from dataclasses import dataclass
+from math import atan2, cos, inf, sin
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from cramp_cli.cracks.criteria.directions import GIVEN, OWN, turn_by
+from cramp_cli.cracks.criteria.load import Load
+from cramp_cli.cracks.extend import add_point, end_point, make_room, move_end
+from cramp_cli.cracks.intensity import open_and_slide, opening_near_tip
+from cramp_cli.cracks.meeting import first_met, has_left_body, leave_body
+from cramp_cli.cracks.speed import Pull
+from cramp_cli.cracks.tip_load import LONG, line_of, load_on
+from cramp_cli.cracks.tips import USUAL, Tip, crack_length, tips_of
+from cramp_cli.state.growth import BLIND, HELD
+from cramp_cli.state.paths import EDGE, PLAIN
+
+CORNER = 0.4363  # a turn of more than this (25 degrees, rad) is a corner
+TURNING = 2.0  # cells on the way of which a running tip turns
+LEAST_MOVE = 1e-3  # growth shorter than this (cells) waits before it begins a new piece
+ARREST = 10.0  # cells a Rayleigh wave travels before a tip at rest counts as arrested
+
+
+class Resistance(NamedTuple):
+    """What a material sets against growth."""
+
+    criterion: Any
+    G_Ic: float  # J/m^2
+    rayleigh: float  # Rayleigh wave speed (m/s)
+
+
+@dataclass(frozen=True)
+class Propagation:
+    """How cracks grow."""
+
+    resistance: dict  # of each material by name; a material without one does not break
+    speed: Any  # law
+    piece: float  # m
+    cracks: tuple  # whether each crack may grow
+    direction: int = OWN
+    toward: tuple = (1.0, 0.0)  # unit vector of the direction `given`
+    fastest: float = 1.0  # share of the Rayleigh speed
+    longest: float = inf  # m, of a whole crack
+    begin: float = inf  # s: from then on a crack runs whatever its load
+    steady: bool = False  # once begun a crack never stops
+
+
+def grow(model, state, scratch) -> list[dict]:
+    """Let all tips grow for a step and return the rows of growth.csv that tell of it."""
+    if model.propagation is None:
+        return []
+    rows = []
+    for tip in tips_of(state.paths):
+        if model.propagation.cracks[tip.crack]:
+            rows += _grow_tip(model, state, scratch, _at_end(state.paths, tip))
+    return rows
+
+
+def _at_end(paths, tip) -> Tip:
+    """Return a tip with the numbers that its points have now."""
+    points = np.arange(paths.start[tip.crack], paths.start[tip.crack + 1])
+    return Tip(tip.crack, tip.end, points[::-1] if tip.end else points)
+
+
+def _grow_tip(model, state, scratch, tip) -> list[dict]:
+    growth, k = state.growth, line_of(tip)
+    found = load_on(model, state, scratch, tip)
+    growth.load[k], growth.stage[k] = found[:3], found.stage
+    resistance = model.propagation.resistance.get(found.site.block.material)
+    if resistance is None or found.stage == BLIND:
+        growth.speed[k] = 0.0
+        return []
+    load = _load_of(state.paths, tip, found)
+    growth.speed[k] = _speed(model, state, tip, resistance, load)
+    if growth.speed[k] <= 0.0:
+        return _rest(model, state, tip, resistance)
+    return _run(model, state, scratch, tip, found, load, resistance.criterion)
+
+
+def _load_of(paths, tip, found) -> Load:
+    gap = opening_near_tip(paths, tip.crack, tip.end)
+    opening, sliding = open_and_slide(gap, found.site.frame.now)
+    return Load(found.K_I, found.K_II, found.J, opening, sliding)
+
+
+def _speed(model, state, tip, resistance, load) -> float:
+    settings, growth, k = model.propagation, state.growth, line_of(tip)
+    drive = resistance.criterion.drive(load)
+    begun = settings.steady and growth.running[k]
+    if begun or state.time >= settings.begin - 0.5 * model.dt:
+        drive = max(drive, 1.0)
+    if crack_length(state.paths, tip.crack) >= settings.longest:
+        return 0.0
+    release, width = load.J / resistance.G_Ic, model.lattice.width
+    pull = Pull(drive, release, float(growth.speed[k]), resistance.rayleigh, model.dt, width)
+    return min(settings.speed.speed(pull), settings.fastest * resistance.rayleigh)
+
+
+def _rest(model, state, tip, resistance) -> list[dict]:
+    """Stay; a tip at rest for long enough is arrested, and begins anew with a new direction."""
+    growth, k = state.growth, line_of(tip)
+    growth.rested[k] += model.dt
+    arrest = ARREST * model.lattice.width / resistance.rayleigh
+    if not growth.running[k] or growth.rested[k] < arrest:
+        return []
+    growth.running[k], growth.piece[k], growth.owed[k] = 0, inf, 0.0
+    return [_row(model, state, tip, "arrest")]
+
+
+def _run(model, state, scratch, tip, found, load, criterion) -> list[dict]:
+    growth, k, rows = state.growth, line_of(tip), []
+    growth.rested[k] = 0.0
+    step = float(growth.speed[k]) * model.dt + float(growth.owed[k])
+    begins = growth.piece[k] >= model.propagation.piece
+    if begins and step < LEAST_MOVE * model.lattice.width:
+        growth.owed[k] = step
+        return []
+    growth.owed[k], growth.running[k] = 0.0, 1
+    now = found.site.frame.now
+    if begins:
+        now = _begin_piece(model, state, scratch, tip, load, criterion, now)
+        tip = _at_end(state.paths, tip)
+    heading = growth.heading[k]
+    reach, met, kind = first_met(model, state, tip, heading, now, step)
+    move_end(state.paths, tip.crack, tip.end, reach * heading, reach * np.array(now))
+    growth.piece[k] += reach
+    growth.mean[k] += reach * growth.load[k, 1:]
+    growth.length[k] += reach
+    growth.kink[k] += reach
+    if growth.kink[k] > max(LONG, USUAL) * model.lattice.width:
+        growth.kink[k] = inf
+    _book(model, state, tip, found, reach)
+    if begins:
+        rows.append(_row(model, state, tip, "growth"))
+    if met:
+        state.paths.ends[tip.crack, tip.end] = PLAIN
+        growth.speed[k] = 0.0
+        rows.append(_row(model, state, tip, kind))
+    elif has_left_body(model, state, tip):
+        leave_body(model, state, tip, heading, now)
+        state.paths.ends[tip.crack, tip.end] = EDGE
+        growth.speed[k] = 0.0
+        rows.append(_row(model, state, tip, "edge"))
+    return rows
+
+
+def _begin_piece(model, state, scratch, tip, load, criterion, now) -> tuple:
+    """Turn the tip and add a point for the piece that begins; return its direction now.
+
+    A tip at rest may leave a corner. A running tip turns by the mean load on the way of its last
+    piece (the load at one moment holds the waves that the passage of every node sends out), and
+    within two cells, not at once: its domain sees the direction of the crack over that length, and
+    a tip that turned by all of the angle in each piece would overshoot and run in a zigzag.
+    """
+    growth, settings, k = state.growth, model.propagation, line_of(tip)
+    heading = tuple(growth.heading[k].tolist())
+    running = 0.0 < growth.piece[k] < inf
+    if running:
+        K_I, K_II = (growth.mean[k] / growth.piece[k]).tolist()
+        load = load._replace(K_I=K_I, K_II=K_II)
+    turn = 0.0
+    if growth.stage[k] != HELD:
+        fixed = settings.toward if settings.direction == GIVEN else tuple(growth.initial[k])
+        turn = turn_by(settings.direction, criterion, load, heading, fixed)
+    place = state.paths.origin[end_point(state.paths, tip.crack, tip.end)].copy()
+    if running:
+        turn *= min(growth.piece[k] / (TURNING * model.lattice.width), 1.0)
+    elif abs(turn) > CORNER:
+        growth.corner[k], growth.parent[k], growth.kink[k] = place, heading, 0.0
+    growth.heading[k] = turned(heading, turn)
+    growth.piece[k], growth.mean[k] = 0.0, 0.0
+    state.paths = add_point(state.paths, tip.crack, tip.end)
+    scratch.segments = make_room(state.paths, scratch.segments, model.lattice.node_count)
+    return turned(now, turn)
+
+
+def turned(vector, angle) -> tuple:
+    """Return a vector turned to the left by an angle (rad)."""
+    c, s = cos(angle), sin(angle)
+    return c * vector[0] - s * vector[1], s * vector[0] + c * vector[1]
+
+
+def _book(model, state, tip, found, step) -> None:
+    """Write the energy that went into the new surface; half of it is that of an image."""
+    k, share = line_of(tip), 0.5 if found.site.half else 1.0
+    spent = share * found.J * step * model.geometry.thickness
+    state.growth.energy[k] += spent
+    state.growth.pending[k] += spent
+    state.books.fracture[0] += spent
+
+
+def _row(model, state, tip, kind) -> dict:
+    """Return a row of growth.csv with the energy spent since the last one of this tip."""
+    growth, paths, k = state.growth, state.paths, line_of(tip)
+    at = end_point(paths, tip.crack, tip.end)
+    behind = paths.point[at - 1 if tip.end else at + 1]
+    out = paths.point[at] - behind
+    J, K_I, K_II = growth.load[k].tolist()
+    energy, growth.pending[k] = float(growth.pending[k]), 0.0
+    return {
+        "step": state.step,
+        "time": state.time,
+        "crack": model.crack_names[tip.crack],
+        "tip": ("start", "end")[tip.end],
+        "kind": kind,
+        "x": float(paths.point[at, 0]),
+        "y": float(paths.point[at, 1]),
+        "angle": atan2(out[1], out[0]),
+        "length": crack_length(paths, tip.crack),
+        "J": J,
+        "K_I": K_I,
+        "K_II": K_II,
+        "energy": energy,
+    }

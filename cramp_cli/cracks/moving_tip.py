@@ -1,0 +1,76 @@
+"""J of a tip that moves: the flow of energy into it, with the kinetic energy of the solid.
+
+J = sum V { (P_iJ H_i1 - (w + T) d_1J) q_,J + rho (a_i H_i1 - v_i v_i,1) q }, T = rho v.v/2: the
+domain form of the flux into a moving tip (Freund 1990, eq. 5.2.7; Nishioka and Atluri 1983), in the
+undeformed body as in domain_integral.py. Velocities count from the mean around the tip: a body that
+flies past gives the same J to round-off.
+"""
+
+from math import sqrt
+
+from cramp_cli.cracks.domain_integral import local_gradient, local_stress, local_vector, weight
+from cramp_cli.numerics.kernel import kernel
+
+
+@kernel
+def mean_velocity(particles, frame, R0, R1, lo, hi):
+    """Return mass and momentum of particles lo..hi around a tip, weighted (kg, N s)."""
+    X, v, m = particles.origin, particles.velocity, particles.mass
+    mass, px, py = 0.0, 0.0, 0.0
+    for p in range(lo, hi):
+        dX, dY = X[p, 0] - frame.origin[0], X[p, 1] - frame.origin[1]
+        r = sqrt(dX * dX + dY * dY)
+        if r < R1:
+            w = m[p] * weight(r, R0, R1)[0]
+            mass += w
+            px += w * v[p, 0]
+            py += w * v[p, 1]
+    return mass, px, py
+
+
+@kernel
+def integrate_flux(particles, frame, gravity, drift, R0, R1, lo, hi):
+    """Return the J of a moving tip over particles lo..hi times the thickness (J/m).
+
+    gravity: acceleration of everything (m/s^2); drift: velocity to count from (m/s)
+    """
+    X, F, L, stress, work = (
+        particles.origin,
+        particles.F,
+        particles.L,
+        particles.stress,
+        particles.work,
+    )
+    volume, mass, a, v = (
+        particles.volume,
+        particles.mass,
+        particles.acceleration,
+        particles.velocity,
+    )
+    J = 0.0
+    for p in range(lo, hi):
+        dX, dY = X[p, 0] - frame.origin[0], X[p, 1] - frame.origin[1]
+        r = sqrt(dX * dX + dY * dY)
+        if r >= R1 or r < 1e-9 * R1:
+            continue
+        x, y = local_vector(frame.before, dX, dY)
+        q, slope = weight(r, R0, R1)
+        qx, qy = slope * x / r, slope * y / r
+        V, rho = volume[p], mass[p] / volume[p]
+        txx, tyy, txy = local_stress(frame.now, stress, p)
+        f00, f01, f10, f11 = local_gradient(frame, F, p)
+        det = f00 * f11 - f01 * f10
+        pxx, pxy = (txx * f11 - txy * f01) / det, (txy * f00 - txx * f10) / det
+        pyx, pyy = (txy * f11 - tyy * f01) / det, (tyy * f00 - txy * f10) / det
+        hxx, hyx = f00 - 1.0, f10
+        ax, ay = local_vector(frame.now, a[p, 0] - gravity[0], a[p, 1] - gravity[1])
+        vx, vy = local_vector(frame.now, v[p, 0] - drift[0], v[p, 1] - drift[1])
+        # v_i,1 in the undeformed body: L F e_1, with F e_1 turned back into the axes of space.
+        c, s = frame.now[0], frame.now[1]
+        gx, gy = c * f00 - s * f10, s * f00 + c * f10
+        lx, ly = L[p, 0] * gx + L[p, 1] * gy, L[p, 2] * gx + L[p, 3] * gy
+        vxx, vyx = local_vector(frame.now, lx, ly)
+        kinetic = 0.5 * rho * (vx * vx + vy * vy)
+        J += V * ((pxx * hxx + pyx * hyx - work[p] - kinetic) * qx + (pxy * hxx + pyy * hyx) * qy)
+        J += V * rho * q * (ax * hxx + ay * hyx - vx * vxx - vy * vyx)
+    return J

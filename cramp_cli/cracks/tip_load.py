@@ -1,0 +1,120 @@
+"""J, K_I and K_II of a tip that may have kinked and may move.
+
+A tip is resolved by its own domain. A kink shorter than that is not: the old faces, no longer
+parallel to the new direction, enter every integral around its end, and J would come out negative.
+While a kink is short its load is that of the crack it left, found around the corner with the kink
+inside the part of the domain where nothing counts, carried to its end by the functions of a small
+kink (kink.py). Later the own domain takes over, small enough to leave the corner outside.
+"""
+
+from math import atan2
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from cramp_cli.cracks.domain_integral import inner_radius
+from cramp_cli.cracks.kink import LARGEST, kinked
+from cramp_cli.cracks.moving_tip import integrate_flux, mean_velocity
+from cramp_cli.cracks.room import find_room
+from cramp_cli.cracks.tips import (
+    SMALLEST,
+    USUAL,
+    Tip,
+    domain_values,
+    is_closed,
+    site_at,
+)
+from cramp_cli.state.growth import BLEND, BLIND, HELD, KINK, OWN
+
+SHORT, LONG = 2.0, 3.0  # lengths of a kink between which its own domain takes over (cells)
+AROUND, FALL = 0.5, 4.0  # R0 beyond the end of a kink, and R1 beyond R0 (cells)
+LEAST_FALL = 1.5  # R1 beyond R0 at the least (cells)
+
+
+class TipLoad(NamedTuple):
+    """What drives a tip."""
+
+    J: float  # J/m^2
+    K_I: float  # Pa sqrt(m)
+    K_II: float  # Pa sqrt(m)
+    stage: int  # where it was found
+    site: Any  # the place of the tip, with its axes of before and now
+
+
+def line_of(tip) -> int:
+    """Return the line of a tip in the arrays of growth."""
+    return 2 * tip.crack + tip.end
+
+
+def load_on(model, state, scratch, tip: Tip) -> TipLoad:
+    """Return the load on a tip; the last one where no domain fits (HELD), or none yet (BLIND)."""
+    growth, k, width = state.growth, line_of(tip), model.lattice.width
+    place = state.paths.origin[tip.points[0]]
+    site = site_at(model, state, scratch, tip.crack, place, tuple(growth.heading[k].tolist()))
+    kink = float(growth.kink[k])
+    late = min(max((kink / width - SHORT) / (LONG - SHORT), 0.0), 1.0)
+    own = _own_load(model, state, scratch, tip, site, kink) if late > 0.0 else None
+    old = _parent_load(model, state, scratch, tip, site, kink) if late < 1.0 else None
+    if own is not None and old is not None:
+        mixed = late * np.array(own) + (1.0 - late) * np.array(old)
+        return TipLoad(*mixed.tolist(), BLEND, site)
+    if own is not None or old is not None:
+        return TipLoad(*(own or old), OWN if own else KINK, site)
+    stage = BLIND if growth.stage[k] == BLIND else HELD
+    return TipLoad(*growth.load[k].tolist(), stage, site)
+
+
+def _own_load(model, state, scratch, tip, site, kink):
+    """Return J, K_I, K_II of the tip's own domain, or None where it has no room."""
+    width, radii = model.lattice.width, model.fracture.radii
+    room, _ = find_room(model, state.paths, tip, site.frame.origin, bends=False)
+    radius = min(radii[0] if radii else USUAL * width, kink, room)
+    least = (1.0 - 1e-9) * min(SMALLEST * width, kink)
+    while radius >= least:
+        J, K_I, K_II, spoiled = domain_values(model, site, radius)
+        if not spoiled:
+            if state.growth.length[line_of(tip)] > 0.0:
+                J = flux_into_tip(model, site, inner_radius(radius, width), radius)
+            here = state.paths.point[tip.points[0]]
+            closed = is_closed(model, scratch, tip.crack, here, radius, K_I)
+            return J, 0.0 if closed else K_I, K_II
+        radius *= 0.9
+    return None
+
+
+def _parent_load(model, state, scratch, tip, site, kink):
+    """Return J, K_I, K_II at the end of a short kink, or None where the corner has no room."""
+    width, growth, k = model.lattice.width, state.growth, line_of(tip)
+    before = tuple(growth.parent[k].tolist())
+    corner = site_at(model, state, scratch, tip.crack, growth.corner[k], before)
+    room, _ = find_room(model, state.paths, tip, corner.frame.origin, bends=False)
+    inner = max(kink + AROUND * width, width)
+    radius = min(inner + FALL * width, room)
+    while radius >= inner + LEAST_FALL * width:
+        _, K_I, K_II, spoiled = domain_values(model, corner, radius, inner)
+        if not spoiled:
+            here = state.paths.point[tip.points[0]]
+            if is_closed(model, scratch, tip.crack, here, radius, K_I):
+                K_I = 0.0
+            (ax, ay), (bx, by) = before, growth.heading[k]
+            phi = min(max(atan2(ax * by - ay * bx, ax * bx + ay * by), -LARGEST), LARGEST)
+            k_I, k_II = kinked(K_I, K_II, phi)
+            return (k_I**2 + k_II**2) / site.hooke.stiffness, k_I, k_II
+        radius *= 0.9
+    return None
+
+
+def flux_into_tip(model, site, inner, radius) -> float:
+    """Return the J of a moving tip (J/m^2) from the domain between both radii (m)."""
+    particles, parts, sums = site.cloud.particles, site.cloud.parts, np.zeros(3)
+    for _, lo, hi in parts:
+        sums += mean_velocity(particles, site.frame, inner, radius, lo, hi)
+    drift = (sums[1] / sums[0], sums[2] / sums[0])
+    if site.half:  # the image moves the other way along the normal of the plane
+        (ex, ey), along = site.frame.now, sums[1:] @ site.frame.now / sums[0]
+        drift = (along * ex, along * ey)
+    J = sum(
+        integrate_flux(particles, site.frame, tuple(site.gravity), drift, inner, radius, lo, hi)
+        for _, lo, hi in parts
+    )
+    return (2.0 if site.half else 1.0) / model.geometry.thickness * J

@@ -1,0 +1,137 @@
+"""Parts of growth: points are added, ends move, speeds follow laws, tips meet things."""
+
+import numpy as np
+import pytest
+from support import build_deck
+
+from cramp_cli.cracks.crossing import make_segments
+from cramp_cli.cracks.extend import add_point, end_point, make_room, move_end
+from cramp_cli.cracks.meeting import first_met, has_left_body
+from cramp_cli.cracks.speed import (
+    ALMOST,
+    EnergyBalance,
+    Prescribed,
+    Pull,
+    RisingToughness,
+    ToughnessTable,
+)
+from cramp_cli.cracks.tips import tips_of
+from cramp_cli.state.failure import NumericalFailure
+from cramp_cli.state.paths import TIP, make_paths
+
+LINES = [[[0, 0], [1, 0], [2, 0]], [[5, 5], [5, 6]]]
+DECK = """
+cramp: 1
+analysis: plane_strain
+grid: {cell: 1, lower: [-2, -2], upper: [22, 12]}
+materials: {m: {law: elastic, density: 1, E: 1, nu: 0.25, toughness: {K_Ic: 2}}}
+bodies: [{name: b, material: m, shape: {type: rectangle, lower: [0, 0], upper: [20, 10]}}]
+cracks:
+  - {name: flat, points: [[0, 5], [8, 5]], start: edge}
+  - {name: upright, points: [[9, 2], [9, 8]]}
+solver: {end_time: 1}
+propagation: {criterion: max_hoop_stress}
+"""
+
+
+@pytest.fixture
+def paths():
+    return make_paths(LINES, [(TIP, TIP)] * 2, [0, 0], [(-1, 0)] * 2, 2)
+
+
+def test_a_crack_gets_longer_at_its_last_point(paths):
+    longer = add_point(paths, 0, 1)
+    move_end(longer, 0, 1, np.array([0.5, 0.25]), np.array([0.5, 0.3]))
+    assert longer.point[longer.crack(0)].tolist() == [[0, 0], [1, 0], [2, 0], [2.5, 0.3]]
+    assert longer.origin[longer.crack(0)][-1].tolist() == [2.5, 0.25]
+    assert longer.above[longer.crack(0)][-1].tolist() == [2.5, 0.3]
+    assert longer.point[longer.crack(1)].tolist() == LINES[1]
+    assert paths.point[paths.crack(0)].tolist() == LINES[0]
+
+
+def test_a_crack_gets_longer_at_its_first_point(paths):
+    longer = add_point(paths, 1, 0)
+    move_end(longer, 1, 0, np.array([0.0, -1.0]), np.array([0.0, -1.0]))
+    assert longer.point[longer.crack(1)].tolist() == [[5, 4], [5, 5], [5, 6]]
+    assert longer.point[longer.crack(0)].tolist() == LINES[0]
+    assert [end_point(longer, c, e) for c in (0, 1) for e in (0, 1)] == [0, 2, 3, 5]
+
+
+def test_an_end_is_closed_where_it_arrives(paths):
+    paths.above[2] += [0.0, 0.1]
+    move_end(paths, 0, 1, np.array([0.5, 0.0]), np.array([0.5, 0.0]))
+    assert paths.above[2].tolist() == paths.below[2].tolist() == paths.point[2].tolist()
+
+
+def test_lists_of_segments_grow_with_the_cracks(paths):
+    segments = make_segments(4, 3, 10)
+    assert make_room(paths, segments, 4) is segments
+    more = make_room(add_point(paths, 0, 1), segments, 4)
+    assert len(more.crack) >= 4
+
+
+def pull(drive, release=1.0, before=0.0):
+    return Pull(drive, release, before, rayleigh=1000.0, dt=1e-7, width=1e-3)
+
+
+def test_rising_toughness():
+    """K_Ic/sqrt(1 - v/c_R) = K at v = 0.75 c_R is twice K_Ic."""
+    assert RisingToughness().speed(pull(2.0)) == pytest.approx(750.0)
+    assert RisingToughness().speed(pull(1.0)) == RisingToughness().speed(pull(-3.0)) == 0.0
+
+
+def test_energy_balance():
+    law = EnergyBalance()
+    assert law.speed(pull(0.9, release=0.81)) == 0.0
+    assert law.speed(pull(1.0, release=1.5)) == pytest.approx(0.5 * 1000.0 * 1e-7 / 4e-6)
+    assert law.speed(pull(0.9, release=1.0, before=300.0)) == 300.0
+    assert law.speed(pull(0.5, release=-9.0, before=1.0)) == 0.0
+    assert law.speed(pull(9.0, release=81.0, before=979.9)) == ALMOST * 1000.0
+
+
+def test_toughness_table_and_prescribed_speed():
+    law = ToughnessTable((0.0, 100.0, 300.0), (1.0, 1.5, 2.0))
+    assert [law.speed(pull(d)) for d in (0.5, 1.0, 1.25, 1.75, 9.0)] == [0, 0, 50, 200, 300]
+    assert Prescribed(400.0).speed(pull(1.0)) == 400.0
+    assert Prescribed(400.0).speed(pull(0.99)) == 0.0
+    assert Prescribed(4000.0).speed(pull(1.0)) == ALMOST * 1000.0
+
+
+def flat_tip(place):
+    model, state, _ = build_deck(DECK)
+    tip = tips_of(state.paths)[0]
+    move_end(state.paths, 0, 1, np.array(place) - [8, 5], np.array(place) - [8, 5])
+    return model, state, tip
+
+
+@pytest.mark.parametrize(
+    ("place", "step", "found"),
+    [
+        ((8.0, 5.0), 0.5, (0.5, False, "")),
+        ((8.5, 5.0), 0.1, (0.1, False, "")),
+        ((8.7, 5.0), 0.1, (0.3, True, "merge")),
+        ((8.95, 5.0), 0.1, (0.05, True, "merge")),
+        ((8.95, 1.5), 0.1, (0.1, False, "")),
+        ((9.1, 5.0), 0.1, (0.1, False, "")),
+    ],
+)
+def test_another_crack_ahead(place, step, found):
+    model, state, tip = flat_tip(place)
+    reach, met, kind = first_met(model, state, tip, (1.0, 0.0), (1.0, 0.0), step)
+    assert (pytest.approx(reach), met, kind) == found
+
+
+@pytest.mark.parametrize(
+    ("place", "out"),
+    [((8.0, 5.0), False), ((19.99, 5.0), False), ((20.13, 5.0), True), ((10.0, 10.2), True)],
+)
+def test_free_surface(place, out):
+    """Particles are half a cell wide: air begins an eighth of a cell outside at the latest."""
+    model, state, tip = flat_tip(place)
+    assert has_left_body(model, state, tip) is out
+
+
+def test_border_of_the_grid():
+    model, state, tip = flat_tip((21.5, 5.0))
+    with pytest.raises(NumericalFailure, match="crack flat has grown to the border of the grid"):
+        has_left_body(model, state, tip)
