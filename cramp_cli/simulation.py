@@ -74,13 +74,14 @@ class Books:
 
     def row(self, state, dt) -> dict:
         """Return the energies of a row of history.csv and keep the balance."""
-        kinetic, stored = sum_energies(state.particles)
+        kinetic, stored, plastic = sum_energies(state.particles)
         books = state.books
         damping, friction = float(books.damping[0]), float(books.friction[0])
         fracture = float(books.fracture[0])
         work = float(books.external[0])
-        spent = kinetic + stored + friction + damping
-        self.largest = max(self.largest, kinetic + stored, abs(work), friction + damping)
+        taken = friction + plastic + damping
+        spent = kinetic + stored + taken
+        self.largest = max(self.largest, kinetic + stored, abs(work), taken)
         self.error = (spent - self.start - work) / self.largest if self.largest else 0.0
         total = momentum(state.particles)
         return {
@@ -91,7 +92,7 @@ class Books:
             "strain_energy": stored,
             "fracture_energy": fracture,
             "friction_energy": friction,
-            "plastic_energy": 0.0,
+            "plastic_energy": plastic,
             "damping_energy": damping,
             "external_work": work,
             "energy_error": self.error,

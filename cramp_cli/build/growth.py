@@ -1,6 +1,6 @@
 """From the `propagation` section of a deck to criteria and laws with numbers."""
 
-from math import hypot, inf
+from math import hypot, inf, isnan
 
 from cramp_cli.cracks.criteria.critical_j import CriticalJ
 from cramp_cli.cracks.criteria.directions import DIRECTIONS
@@ -41,10 +41,12 @@ def build_propagation(deck, blocks, geometry) -> Propagation | None:
 def _resistance(deck, block, geometry) -> Resistance | None:
     """Return what a material sets against growth; None if it does not break."""
     material, section = deck.materials[block.material], deck.propagation
-    criterion = _criterion(deck, section, material, hooke_of(block.law, geometry))
+    hooke = hooke_of(block.law, geometry)
+    if isnan(hooke.shear):  # no K, no wave speeds of an isotropic solid
+        return None
+    criterion = _criterion(deck, section, material, hooke)
     if criterion is None:
         return None
-    hooke = hooke_of(block.law, geometry)
     speeds = wave_speeds(hooke.shear, hooke.kappa, block.density)
     G_Ic = material.G_Ic_of(deck.analysis)
     return Resistance(criterion, inf if G_Ic is None else G_Ic, rayleigh_speed(*speeds))

@@ -4,12 +4,12 @@ import numpy as np
 
 from cramp_cli.build.conditions import build_conditions
 from cramp_cli.build.growth import build_propagation
+from cramp_cli.build.laws import law_of
 from cramp_cli.cracks.contact import LAWS, ContactLaws
 from cramp_cli.cracks.tips import Fracture
 from cramp_cli.deck.deck import Deck, DeckError
-from cramp_cli.materials.elastic import Elastic
 from cramp_cli.materials.geometry import PlaneStrain, PlaneStress
-from cramp_cli.materials.law import confined_modulus
+from cramp_cli.materials.law import confined_modulus, memory
 from cramp_cli.shapes.linear import Linear
 from cramp_cli.shapes.ugimp import UniformGimp
 from cramp_cli.state.bands import band_starts, sorted_by_cell
@@ -96,7 +96,7 @@ def time_step(deck: Deck) -> float:
 
 def wave_speed(material) -> float:
     """Return the dilational wave speed (m/s), that of the solid also in plane stress."""
-    return float(np.sqrt(confined_modulus(_law(material)) / material.density))
+    return float(np.sqrt(confined_modulus(law_of(material)) / material.density))
 
 
 def seed_body(deck: Deck, lattice: Lattice, number: int) -> np.ndarray:
@@ -147,12 +147,13 @@ def _fill(deck: Deck, lattice: Lattice, seeds) -> tuple[tuple[Block, ...], Parti
         points, owner = points[by_place := np.lexsort(points.T)], owner[by_place]
         order = sorted_by_cell(lattice, points)
         section, half = deck.materials[material], (0.5 / per_cell,) * 2
-        law, shape = _law(section), SHAPES[deck.solver.shape](half)
+        law, shape = law_of(section), SHAPES[deck.solver.shape](half)
         blocks.append(Block(start, start + len(points), law, shape, material, section.density))
         volume = np.full(len(points), (lattice.width / per_cell) ** 2 * deck.thickness)
         parts.append((points[order], owner[order], section.density * volume, volume))
         start += len(points)
-    particles = particles_at(*(np.concatenate(column) for column in zip(*parts, strict=True)))
+    columns = (np.concatenate(column) for column in zip(*parts, strict=True))
+    particles = particles_at(*columns, memory=max(memory(b.law) for b in blocks))
     for number, body in enumerate(deck.bodies):
         _set_moving(particles, number, body)
     return tuple(blocks), particles
@@ -167,10 +168,6 @@ def _set_moving(particles: Particles, number: int, body) -> None:
     arm = particles.position[mine] - centre
     spin = body.angular_velocity * np.stack([-arm[:, 1], arm[:, 0]], axis=1)
     particles.velocity[mine] = np.asarray(body.velocity) + spin
-
-
-def _law(section) -> Elastic:
-    return Elastic(section.lame, section.shear)
 
 
 def _update(solver):

@@ -7,7 +7,7 @@ number. A crack on a symmetry plane has half a domain; the other half is its ima
 """
 
 from dataclasses import dataclass
-from math import hypot, nan
+from math import hypot, isnan, nan
 from typing import Any
 
 import numpy as np
@@ -30,6 +30,8 @@ from cramp_cli.cracks.room import find_room
 from cramp_cli.materials.geometry import is_plane_stress
 from cramp_cli.materials.law import poisson_ratio, same_law, shear_modulus
 from cramp_cli.state.growth import BLEND, HELD, KINK
+from cramp_cli.state.measures import from_history
+from cramp_cli.state.particles import DISSIPATED
 from cramp_cli.state.paths import TIP
 
 BESIDE = 3.0  # cells behind a tip and beside the crack in which the sides are told apart
@@ -39,6 +41,7 @@ SPREAD = (0.8, 1.0, 1.2)  # radii that are compared, in shares of the radius
 DOUBTFUL = 0.2  # share by which two numbers for one J may differ
 NOISE = 0.01  # share of the strain energy around the tip that is no J
 ROUND_OFF = 1e-12  # a strain that is none
+TAKEN = 0.01  # share of the work around the tip that plastic and viscous strain may have taken
 STAGES = {
     KINK: "kink: from the field around the corner",
     BLEND: "kink: partly from the field around the corner",
@@ -134,6 +137,7 @@ def _sample(model, state, scratch, tip) -> dict:
         remarks.append(remark)
     if not (grown or any("closed" in remark for remark in remarks)):  # J of a moving tip is its own
         remarks.append(_doubt(model, site, row))
+    remarks += _of_law(model, state, site)
     return row | {"status": "; ".join(filter(None, remarks)) or "ok"}
 
 
@@ -205,7 +209,7 @@ def block_at(model, cloud, place):
 
 
 def hooke_of(law, geometry) -> Hooke:
-    """Return the elastic constants of a law in the plane."""
+    """Return the elastic constants of a law in the plane; nan if it has none, K is nan then."""
     shear, nu = shear_modulus(law), poisson_ratio(law)
     plane_nu = nu / (1.0 + nu) if is_plane_stress(geometry) else nu
     return Hooke(shear, 3.0 - 4.0 * plane_nu, plane_nu, 2.0 * shear / (1.0 - plane_nu))
@@ -279,6 +283,19 @@ def _doubt(model, site, row) -> str:
         if off > max(DOUBTFUL * larger, NOISE * radius * energy):
             found.append(text.format(100.0 * off / larger))
     return "; ".join(found)
+
+
+def _of_law(model, state, site) -> list[str]:
+    """Say what the law at the tip takes from J and K, which belong to an elastic solid."""
+    near = np.hypot(*(state.particles.origin - site.frame.origin).T) < USUAL * model.lattice.width
+    taken = float(from_history(state.particles, DISSIPATED)[near].sum())
+    work, found = float(state.particles.work[near].sum()), []
+    if isnan(site.hooke.shear):
+        found.append("K invalid: the stiffness of the material depends on direction or time")
+    if taken > TAKEN * work:
+        text = "doubtful: plastic or viscous strain took {:.0f} % of the work around the tip"
+        found.append(text.format(100.0 * taken / work))
+    return found
 
 
 def _spread(J, others) -> float:

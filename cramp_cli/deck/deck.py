@@ -19,6 +19,7 @@ from cramp_cli.deck.overrides import apply_overrides
 from cramp_cli.deck.parts import parts_of, salvage
 from cramp_cli.deck.propagation import PropagationSection
 from cramp_cli.deck.run import FractureSection, OutputSection, SolverSection
+from cramp_cli.deck.solids import Isotropic
 from cramp_cli.deck.write import to_yaml
 from cramp_cli.schema.explain import explain
 from cramp_cli.schema.loader import read_source
@@ -159,8 +160,9 @@ def _filled(deck: Deck) -> Deck:
 def _warnings(deck: Deck) -> Iterator[Wrong]:
     yield from crack_warnings(parts_of(deck))
     for name, material in deck.materials.items():
-        if deck.analysis == "plane_strain" and material.poisson > NEARLY_INCOMPRESSIBLE:
-            key = "nu" if material.nu is not None else "K"
+        stiff = isinstance(material, Isotropic) and material.poisson > NEARLY_INCOMPRESSIBLE
+        if deck.analysis == "plane_strain" and stiff:
+            key = "nu" if getattr(material, "nu", None) is not None else "K"
             message = f"nearly incompressible (nu = {material.poisson:.6g}): stresses may lock"
             yield ("materials", name, key), message
         if name not in {body.material for body in deck.bodies}:

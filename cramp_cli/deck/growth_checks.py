@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Any
 
-from cramp_cli.deck.materials import AGREE
+from cramp_cli.deck.solids import AGREE
 from cramp_cli.schema.section import Wrong, unknown
 
 SHORTEST, LONGEST = 0.1, 1.0  # cells; length of the pieces by which a crack grows

@@ -1,123 +1,122 @@
 """What a deck says about materials."""
 
 from collections.abc import Iterator
-from typing import Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
-from cramp_cli.schema.section import Section, Wrong, listed, one_of
-from cramp_cli.schema.units import (
-    Density,
-    EnergyToughness,
-    Length,
-    Number,
-    Stress,
-    StressIntensity,
-)
-
-AGREE = 0.01  # K_Ic and G_Ic of one material may differ by this share of G_Ic
-NEEDED = {  # by a criterion of growth: one of each group
-    "max_hoop_stress": (("K_Ic", "G_Ic"),),
-    "max_energy_release_rate": (("K_Ic", "G_Ic"),),
-    "strain_energy_density": (("K_Ic", "G_Ic"),),
-    "empirical": (("K_Ic", "G_Ic"), ("K_IIc",)),
-    "max_ctod": (("delta_Ic", "delta_IIc"),),
-    "critical_J": (("K_Ic", "G_Ic"),),
-    "steady_state": (("K_Ic", "G_Ic"),),
-}
+from cramp_cli.deck.anisotropic import OrthotropicSection, TransverseSection
+from cramp_cli.deck.hardening import AnyHardening
+from cramp_cli.deck.solids import Elastic, Isotropic
+from cramp_cli.schema.section import Section, Wrong, one_of
+from cramp_cli.schema.units import Angle, Number, Stress, Time
 
 
-class Toughness(Section):
-    """What a crack needs to grow; K_Ic or G_Ic, and what the criterion asks for."""
-
-    K_Ic: StressIntensity | None = Field(
-        None, gt=0, description="critical stress intensity, mode I"
-    )
-    G_Ic: EnergyToughness | None = Field(None, gt=0, description="critical energy release rate")
-    K_IIc: StressIntensity | None = Field(
-        None, gt=0, description="critical stress intensity, mode II (criterion: empirical)"
-    )
-    delta_Ic: Length | None = Field(None, gt=0, description="critical opening (max_ctod)")
-    delta_IIc: Length | None = Field(None, gt=0, description="critical sliding (max_ctod)")
-
-    @classmethod
-    def wrong_keys(cls, keys: set[str]) -> Iterator[Wrong]:
-        """It says something."""
-        if not keys & set(cls.model_fields):
-            yield (), f"give one of {listed(cls.model_fields)}"
-
-    def lacks(self, criterion: str) -> list[str]:
-        """Return what a criterion of growth needs and is not given, one text for each."""
-        groups = NEEDED[criterion]
-        given = self.model_fields_set
-        return [" or ".join(group) for group in groups if not given & set(group)]
-
-
-class ElasticSection(Section):
+class ElasticSection(Elastic):
     """An elastic, isotropic solid, given by E and nu or by K and G."""
 
     law: Literal["elastic"] = Field("elastic", description="kind of material")
-    density: Density = Field(gt=0, description="mass per volume")
-    E: Stress | None = Field(None, gt=0, description="Young's modulus")
-    nu: Number | None = Field(None, gt=-1, lt=0.5, description="Poisson's ratio")
-    K: Stress | None = Field(None, gt=0, description="bulk modulus")
-    G: Stress | None = Field(None, gt=0, description="shear modulus")
-    toughness: Toughness | None = Field(None, description="resistance against crack growth")
 
-    @classmethod
-    def wrong_keys(cls, keys: set[str]) -> Iterator[Wrong]:
-        """Exactly one pair of constants."""
-        given = {"E", "nu", "K", "G"} & keys
-        if given in ({"E", "nu"}, {"K", "G"}):
-            return
-        partner = {"E": "nu", "nu": "E", "K": "G", "G": "K"}
-        if len(given) == 1:
-            yield (partner[min(given)],), f"is missing; it goes with {min(given)}"
-        else:
-            yield (), "give E and nu, or K and G"
 
-    @property
-    def young(self) -> float:
-        """Young's modulus (Pa)."""
-        return self.E if self.E is not None else 9.0 * self.K * self.G / (3.0 * self.K + self.G)
+class J2PlasticSection(Elastic):
+    """A metal: elastic until its von Mises stress reaches the yield stress, which may rise."""
 
-    @property
-    def poisson(self) -> float:
-        """Poisson's ratio."""
-        if self.nu is not None:
-            return self.nu
-        return (3.0 * self.K - 2.0 * self.G) / (2.0 * (3.0 * self.K + self.G))
+    law: Literal["j2_plastic"] = Field("j2_plastic", description="kind of material")
+    hardening: AnyHardening = Field(description="yield stress and how it rises")
+
+
+class NeoHookeanSection(Elastic):
+    """Rubber, for large strains; the constants are those of small strains."""
+
+    law: Literal["neo_hookean"] = Field("neo_hookean", description="kind of material")
+
+
+class MooneyRivlinSection(Isotropic):
+    """Rubber, for large strains, nearly incompressible."""
+
+    law: Literal["mooney_rivlin"] = Field("mooney_rivlin", description="kind of material")
+    C10: Stress = Field(gt=0, description="constant of the first invariant")
+    C01: Stress = Field(0.0, ge=0, description="constant of the second invariant")
+    K: Stress = Field(gt=0, description="bulk modulus")
 
     @property
     def shear(self) -> float:
-        """Shear modulus (Pa)."""
-        return self.G if self.G is not None else 0.5 * self.E / (1.0 + self.nu)
+        """Shear modulus of small strains (Pa)."""
+        return 2.0 * (self.C10 + self.C01)
 
     @property
-    def lame(self) -> float:
-        """First Lame constant (Pa)."""
-        if self.K is not None:
-            return self.K - 2.0 * self.G / 3.0
-        return self.E * self.nu / ((1.0 + self.nu) * (1.0 - 2.0 * self.nu))
+    def young(self) -> float:
+        """Young's modulus of small strains (Pa)."""
+        return 9.0 * self.K * self.shear / (3.0 * self.K + self.shear)
 
-    def plane_modulus(self, analysis: str) -> float:
-        """E' of K^2 = G E' (Pa): E in plane stress, E / (1 - nu^2) in plane strain."""
-        return self.young if analysis == "plane_stress" else self.young / (1.0 - self.poisson**2)
+    @property
+    def poisson(self) -> float:
+        """Poisson's ratio of small strains."""
+        return (3.0 * self.K - 2.0 * self.shear) / (6.0 * self.K + 2.0 * self.shear)
 
-    def K_Ic_of(self, analysis: str) -> float | None:  # noqa: N802 (the word of the field)
-        """Critical stress intensity in mode I (Pa m^0.5); None if it is not known."""
-        G_Ic = self.G_Ic_of(analysis)
-        if self.toughness is not None and self.toughness.K_Ic is not None:
-            return self.toughness.K_Ic
-        return None if G_Ic is None else (G_Ic * self.plane_modulus(analysis)) ** 0.5
-
-    def G_Ic_of(self, analysis: str) -> float | None:  # noqa: N802 (the word of the field)
-        """Critical energy release rate in mode I (J/m^2); None if it is not known."""
-        if self.toughness is None:
-            return None
-        if self.toughness.G_Ic is not None or self.toughness.K_Ic is None:
-            return self.toughness.G_Ic
-        return self.toughness.K_Ic**2 / self.plane_modulus(analysis)
+    def wrong_values(self) -> Iterator[Wrong]:
+        """A solid that thickens when it is pulled is none."""
+        if self.poisson <= 0.0:
+            least = 2.0 * self.shear / 3.0
+            yield ("K",), f"must be above 4 (C10 + C01)/3 = {least:.6g} Pa (got {self.K:g} Pa)"
 
 
-AnyMaterial = one_of("law", ElasticSection)
+class PronySection(Section):
+    """A part of the shear modulus that relaxes."""
+
+    share: Number = Field(gt=0, le=1, description="part of the shear modulus")
+    time: Time = Field(gt=0, description="time in which it falls to 1/e")
+
+
+Prony = Annotated[tuple[PronySection, ...], Field(min_length=1, max_length=12)]
+
+
+class ViscoelasticSection(Elastic):
+    """A polymer: its shear modulus relaxes in time, its bulk modulus does not.
+
+    The elastic constants are those of a fast strain, before anything has relaxed.
+    """
+
+    law: Literal["viscoelastic"] = Field("viscoelastic", description="kind of material")
+    prony: Prony = Field(description="parts of the shear modulus that relax")
+
+    def wrong_values(self) -> Iterator[Wrong]:
+        """No more than the whole modulus relaxes; without K nothing can grow."""
+        if self.toughness is not None:
+            yield ("toughness",), "does not go with viscoelastic, where K is not known; remove it"
+        total = sum(part.share for part in self.prony)
+        if total > 1.0 + 1e-12:
+            yield ("prony",), f"the shares must sum to at most 1 (got {total:.6g})"
+
+
+class DruckerPragerSection(Elastic):
+    """Soil, rock or concrete: the shear stress it bears rises with the pressure."""
+
+    law: Literal["drucker_prager"] = Field("drucker_prager", description="kind of material")
+    cohesion: Stress = Field(ge=0, description="shear stress borne without pressure")
+    friction_angle: Angle = Field(ge=0, lt=90, description="angle of internal friction")
+    dilation_angle: Angle = Field(0.0, ge=0, lt=90, description="angle of the plastic flow")
+    match: Literal["compression", "tension", "plane_strain"] = Field(
+        "compression", description="where the cone meets the surface of Mohr and Coulomb"
+    )
+
+    def wrong_values(self) -> Iterator[Wrong]:
+        """Flow steeper than the cone would make energy; without both there is no strength."""
+        if self.dilation_angle > self.friction_angle:
+            got = f"(got {self.dilation_angle:g} and {self.friction_angle:g} degrees)"
+            yield ("dilation_angle",), f"must be at most friction_angle {got}"
+        if self.cohesion == 0.0 and self.friction_angle == 0.0:
+            yield ("cohesion",), "must be above 0 if friction_angle is 0 (got 0)"
+
+
+AnyMaterial = one_of(
+    "law",
+    ElasticSection,
+    J2PlasticSection,
+    NeoHookeanSection,
+    MooneyRivlinSection,
+    OrthotropicSection,
+    TransverseSection,
+    ViscoelasticSection,
+    DruckerPragerSection,
+)

@@ -1,6 +1,7 @@
 """The grammar of a deck for readers: every section and key on one page of Markdown."""
 
 from collections.abc import Iterator
+from inspect import getdoc
 from types import NoneType, UnionType
 from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
@@ -35,6 +36,8 @@ FAMILIES = {
     "loads": "load",
     "cracks": "contact law",
     "materials": "material",
+    "anisotropic": "material",
+    "hardening": "hardening",
     "propagation": "speed law",
 }
 TITLES = {
@@ -60,7 +63,7 @@ def deck_reference() -> str:
         title = _title(section)
         rows = [_row(section, name, field) for name, field in section.model_fields.items()]
         table = "\n".join(["| key | value | default | meaning |", "|---|---|---|---|", *rows])
-        pages.append(f"## {title}\n\n{section.__doc__}\n\n{table}\n")
+        pages.append(f"## {title}\n\n{getdoc(section)}\n\n{table}\n")
     return "\n".join(pages)
 
 

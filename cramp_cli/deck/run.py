@@ -147,6 +147,8 @@ OutputField = Literal[
     "acceleration",
     "deformation_gradient",
     "energy",
+    "dissipated_energy",
+    "plastic_strain",
 ]
 
 

@@ -9,6 +9,7 @@ from typing import NamedTuple
 from cramp_cli.materials.law import (
     confined_modulus,
     kirchhoff_stress,
+    memory,
     poisson_ratio,
     shear_modulus,
 )
@@ -22,10 +23,11 @@ class Elastic(NamedTuple):
 
 
 @kirchhoff_stress.implement(Elastic)
-def _(law, turned, strain):
+def _(law, step, history, p):
+    turned, strain = step.turned, step.strain
     pressure = law.lame * (strain[0] + strain[1] + strain[2])
     double = 2.0 * law.shear
-    return (
+    new = (
         turned[0] + pressure + double * strain[0],
         turned[1] + pressure + double * strain[1],
         turned[2] + pressure + double * strain[2],
@@ -33,6 +35,12 @@ def _(law, turned, strain):
         turned[4] + double * strain[4],
         turned[5] + double * strain[5],
     )
+    return new, ()
+
+
+@memory.implement(Elastic)
+def _(law):
+    return 0
 
 
 @confined_modulus.implement(Elastic)

@@ -1,10 +1,17 @@
 """Plane strain and plane stress: the strain normal to the plane that a plane leaves open."""
 
+from math import nan
 from typing import NamedTuple
 
-from cramp_cli.materials.law import confined_modulus, kirchhoff_stress
+from cramp_cli.materials.law import Strained, confined_modulus, kirchhoff_stress
 from cramp_cli.numerics.dispatch import generic
-from cramp_cli.numerics.tensor import solid_strain
+from cramp_cli.numerics.kernel import inlined_kernel
+from cramp_cli.numerics.tensor import solid_matrix, solid_strain
+
+PASSES = 50
+SETTLED = 1e-14  # normal stress that is none, in confined moduli
+ROUND_OFF = 1e-10  # the least a stiff solid under large strain may be left with
+FLATTEST = 0.05  # least slope of the normal stress that is trusted, in confined moduli
 
 
 class PlaneStrain(NamedTuple):
@@ -20,11 +27,10 @@ class PlaneStress(NamedTuple):
 
 
 @generic
-def strained(geometry, law, turned, dU):
-    """Return strain of the step and stress after it (six components each).
+def strained(geometry, law, step, history, p):
+    """Return the strain of a step, the stress after it (six each), and what the history becomes.
 
-    turned: stress before the step, turned with the particle (Pa)
-    dU: step of the displacement gradient
+    step: of Straining
     """
 
 
@@ -34,25 +40,38 @@ def is_plane_stress(geometry):
 
 
 @strained.implement(PlaneStrain)
-def _(geometry, law, turned, dU):
-    strain = solid_strain(dU, 0.0)
-    return strain, kirchhoff_stress(law, turned, strain)
+def _(geometry, law, step, history, p):
+    whole = _completed(step, 0.0)
+    stress, past = kirchhoff_stress(law, whole, history, p)
+    return whole.strain, stress, past
 
 
 @strained.implement(PlaneStress)
-def _(geometry, law, turned, dU):
-    # Newton with the confined modulus: exact in one pass for a linear law, which starts from zero.
+def _(geometry, law, step, history, p):
+    # The first pass is exact for an isotropic linear law; others go on with secants.
     zz = 0.0
-    strain = solid_strain(dU, zz)
-    stress = kirchhoff_stress(law, turned, strain)
+    whole = _completed(step, zz)
+    stress, past = kirchhoff_stress(law, whole, history, p)
     modulus = confined_modulus(law)
-    for _ in range(20):
-        zz -= stress[2] / modulus
-        strain = solid_strain(dU, zz)
-        stress = kirchhoff_stress(law, turned, strain)
-        if abs(stress[2]) <= 1e-14 * modulus:
+    slope = modulus
+    for _ in range(PASSES):
+        before, change = stress[2], -stress[2] / slope
+        zz += change
+        whole = _completed(step, zz)
+        stress, past = kirchhoff_stress(law, whole, history, p)
+        if abs(stress[2]) <= SETTLED * modulus:
             break
-    return strain, (stress[0], stress[1], 0.0, stress[3], stress[4], stress[5])
+        slope = max((stress[2] - before) / change, FLATTEST * modulus)
+    rest = 0.0 if abs(stress[2]) <= ROUND_OFF * modulus else nan  # nan: the run ends with a message
+    return whole.strain, (stress[0], stress[1], rest, stress[3], stress[4], stress[5]), past
+
+
+@inlined_kernel
+def _completed(step, zz):
+    """Return the step with the strain `zz` normal to a plane problem."""
+    strain = solid_strain(step.dU, zz)
+    F = solid_matrix(step.F, step.stretch * (1.0 + zz + 0.5 * zz * zz))
+    return Strained(step.turned, strain, step.dU, F, step.dt)
 
 
 @is_plane_stress.implement(PlaneStrain)

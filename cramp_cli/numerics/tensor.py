@@ -9,9 +9,11 @@ from math import atan2, cos, floor, sin
 from cramp_cli.numerics.dispatch import by_length
 
 __all__ = [
-    "add_outer", "apply", "columns", "determinant", "dot", "from_columns", "in_cells",
-    "increment", "kept", "matrix", "outer", "outer_sum", "pick", "plus", "product",
-    "rotation_of", "scaled", "solid_strain", "store", "symmetric", "times", "turn", "vector",
+    "add_outer", "added", "apply", "columns", "congruent", "determinant", "deviator", "dot",
+    "from_columns", "in_cells", "increment", "kept", "left_cauchy_green", "matrix", "outer",
+    "outer_sum", "pick", "plus", "product", "rotation_of", "scaled", "six", "solid_matrix",
+    "solid_strain", "square_of", "squared", "store", "symmetric", "times", "transposed", "turn",
+    "vector",
     "vector_of", "whole", "within", "work_of", "zero_matrix",
 ]  # fmt: skip
 
@@ -36,6 +38,29 @@ def shifted(a, s):
 @shifted.implement(1)
 def _(a, s):
     return (a[0] + s,)
+
+
+@by_length
+def added(a, s, b):
+    """Return a + s b for tuples of any length."""
+    return (a[0] + s * b[0],) + added(a[1:], s, b[1:])
+
+
+@added.implement(1)
+def _(a, s, b):
+    return (a[0] + s * b[0],)
+
+
+@by_length
+def store(values, a, i, at):
+    """Write the tuple `values` to row `i` of the array `a`, from column `at` on."""
+    a[i, at] = values[0]
+    store(values[1:], a, i, at + 1)
+
+
+@store.implement(0)
+def _(values, a, i, at):
+    pass
 
 
 @by_length
@@ -205,18 +230,6 @@ def _(v, g, A):
         A[3] + v[1] * g[0], A[4] + v[1] * g[1], A[5] + v[1] * g[2],
         A[6] + v[2] * g[0], A[7] + v[2] * g[1], A[8] + v[2] * g[2],
     )  # fmt: skip
-
-
-@by_length
-def store(values, a, i, k):
-    """Write a tuple into row `i` of the array `a`, from column `k` on."""
-    a[i, k] = values[0]
-    store(values[1:], a, i, k + 1)
-
-
-@store.implement(1)
-def _(values, a, i, k):
-    a[i, k] = values[0]
 
 
 @by_length
@@ -425,20 +438,53 @@ def _(dU, zz):
 
 
 @by_length
-def turn(dU, stress, p):
-    """Return the stress in row `p` turned by the rotation of the gradient step dU, six components.
+def solid_matrix(F, zz):
+    """Return F with nine components; in a plane problem `zz` is that normal to the plane."""
+
+
+@solid_matrix.implement(4)
+def _(F, zz):
+    return (F[0], F[1], 0.0, F[2], F[3], 0.0, 0.0, 0.0, zz)
+
+
+@solid_matrix.implement(9)
+def _(F, zz):
+    return F
+
+
+@by_length
+def six(dU, a, i, at):
+    """Return the symmetric tensor in row `i` of the array `a`, from column `at` on.
+
+    It has six components; for the dU of a plane problem yz and xz are zero and not read.
+    """
+
+
+@six.implement(4)
+def _(dU, a, i, at):
+    return (a[i, at], a[i, at + 1], a[i, at + 2], a[i, at + 3], 0.0, 0.0)
+
+
+@six.implement(9)
+def _(dU, a, i, at):
+    return (a[i, at], a[i, at + 1], a[i, at + 2], a[i, at + 3], a[i, at + 4], a[i, at + 5])
+
+
+@by_length
+def turn(dU, T):
+    """Return the symmetric tensor T (six components) turned by the rotation of the step dU.
 
     The rotation is the Cayley transform of the spin: orthogonal to round-off, so a spinning body
-    keeps its stress (Hughes and Winget 1980).
+    keeps its stress (Hughes and Winget 1980). In a plane problem yz and xz of T are zero.
     """
 
 
 @turn.implement(4)
-def _(dU, stress, p):
+def _(dU, T):
     half = 0.25 * (dU[2] - dU[1])
     scale = 1.0 / (1.0 + half * half)
     c, s = (1.0 - half * half) * scale, 2.0 * half * scale
-    xx, yy, zz, xy = stress[p, 0], stress[p, 1], stress[p, 2], stress[p, 3]
+    xx, yy, zz, xy = T[0], T[1], T[2], T[3]
     cc, ss, cs = c * c, s * s, c * s
     return (
         cc * xx + ss * yy - 2.0 * cs * xy,
@@ -451,7 +497,7 @@ def _(dU, stress, p):
 
 
 @turn.implement(9)
-def _(dU, stress, p):
+def _(dU, T):
     a, b, c = 0.25 * (dU[7] - dU[5]), 0.25 * (dU[2] - dU[6]), 0.25 * (dU[3] - dU[1])
     f = 2.0 / (1.0 + a * a + b * b + c * c)
     R = (
@@ -459,12 +505,83 @@ def _(dU, stress, p):
         f * (a * b + c), 1.0 - f * (a * a + c * c), f * (b * c - a),
         f * (a * c - b), f * (b * c + a), 1.0 - f * (a * a + b * b),
     )  # fmt: skip
-    xx, yy, zz = stress[p, 0], stress[p, 1], stress[p, 2]
-    xy, yz, xz = stress[p, 3], stress[p, 4], stress[p, 5]
-    T = product(product(R, (xx, xy, xz, xy, yy, yz, xz, yz, zz)), (
-        R[0], R[3], R[6], R[1], R[4], R[7], R[2], R[5], R[8],
-    ))  # fmt: skip
-    return (T[0], T[4], T[8], T[1], T[5], T[2])
+    return congruent(R, T)
+
+
+@by_length
+def congruent(R, T):
+    """Return R T R^T for a matrix of nine and a symmetric tensor of six components."""
+
+
+@congruent.implement(9)
+def _(R, T):
+    xx, yy, zz, xy, yz, xz = T
+    A = product(product(R, (xx, xy, xz, xy, yy, yz, xz, yz, zz)), transposed(R))
+    return (A[0], A[4], A[8], A[1], A[5], A[2])
+
+
+@by_length
+def transposed(A):
+    """Return the transposed matrix."""
+
+
+@transposed.implement(4)
+def _(A):
+    return (A[0], A[2], A[1], A[3])
+
+
+@transposed.implement(9)
+def _(A):
+    return (A[0], A[3], A[6], A[1], A[4], A[7], A[2], A[5], A[8])
+
+
+@by_length
+def left_cauchy_green(F):
+    """Return b = F F^T of a matrix of nine components, as six."""
+
+
+@left_cauchy_green.implement(9)
+def _(F):
+    return (
+        F[0] * F[0] + F[1] * F[1] + F[2] * F[2],
+        F[3] * F[3] + F[4] * F[4] + F[5] * F[5],
+        F[6] * F[6] + F[7] * F[7] + F[8] * F[8],
+        F[0] * F[3] + F[1] * F[4] + F[2] * F[5],
+        F[3] * F[6] + F[4] * F[7] + F[5] * F[8],
+        F[0] * F[6] + F[1] * F[7] + F[2] * F[8],
+    )
+
+
+@by_length
+def squared(T):
+    """Return T T of a symmetric tensor of six components."""
+
+
+@squared.implement(6)
+def _(T):
+    return left_cauchy_green((T[0], T[3], T[5], T[3], T[1], T[4], T[5], T[4], T[2]))
+
+
+@by_length
+def deviator(T):
+    """Return a symmetric tensor of six components without its mean."""
+
+
+@deviator.implement(6)
+def _(T):
+    mean = (T[0] + T[1] + T[2]) / 3.0
+    return (T[0] - mean, T[1] - mean, T[2] - mean, T[3], T[4], T[5])
+
+
+@by_length
+def square_of(T):
+    """Return T : T for a symmetric tensor of six components."""
+
+
+@square_of.implement(6)
+def _(T):
+    normal = T[0] * T[0] + T[1] * T[1] + T[2] * T[2]
+    return normal + 2.0 * (T[3] * T[3] + T[4] * T[4] + T[5] * T[5])
 
 
 @by_length
@@ -484,3 +601,30 @@ def rotation_of(F):
 def _(F):
     angle = atan2(F[2] - F[1], F[0] + F[3])
     return (cos(angle), -sin(angle), sin(angle), cos(angle))
+
+
+@rotation_of.implement(9)
+def _(F):
+    # Newton's iteration R = (R + R^-T)/2 (Higham 1986): the last passes square the error.
+    R = F
+    for _ in range(20):
+        j = 0.5 / determinant(R)
+        new = (
+            0.5 * R[0] + j * (R[4] * R[8] - R[5] * R[7]),
+            0.5 * R[1] + j * (R[5] * R[6] - R[3] * R[8]),
+            0.5 * R[2] + j * (R[3] * R[7] - R[4] * R[6]),
+            0.5 * R[3] + j * (R[2] * R[7] - R[1] * R[8]),
+            0.5 * R[4] + j * (R[0] * R[8] - R[2] * R[6]),
+            0.5 * R[5] + j * (R[1] * R[6] - R[0] * R[7]),
+            0.5 * R[6] + j * (R[1] * R[5] - R[2] * R[4]),
+            0.5 * R[7] + j * (R[2] * R[3] - R[0] * R[5]),
+            0.5 * R[8] + j * (R[0] * R[4] - R[1] * R[3]),
+        )
+        change = added(new, -1.0, R)
+        R = new
+        size = 0.0
+        for entry in change:
+            size += abs(entry)
+        if size < 1e-9:  # its square is round-off
+            break
+    return R

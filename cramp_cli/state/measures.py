@@ -3,20 +3,27 @@
 import numpy as np
 
 from cramp_cli.numerics.kernel import kernel
+from cramp_cli.state.particles import DISSIPATED, PLASTIC_STRAIN
 
 
 @kernel
 def sum_energies(particles):
-    """Return kinetic energy and work of the stresses (J)."""
+    """Return kinetic, stored and dissipated energy (J).
+
+    Stored is the work of the stresses that plastic and viscous strain have not taken.
+    """
     v, m, work, volume = particles.velocity, particles.mass, particles.work, particles.volume
-    kinetic, stored = 0.0, 0.0
+    history = particles.history
+    kinetic, total, dissipated = 0.0, 0.0, 0.0
     for p in range(len(m)):
         square = 0.0
         for d in range(v.shape[1]):
             square += v[p, d] * v[p, d]
         kinetic += 0.5 * m[p] * square
-        stored += work[p] * volume[p]
-    return kinetic, stored
+        total += work[p] * volume[p]
+        if history.shape[1]:
+            dissipated += history[p, DISSIPATED] * volume[p]
+    return kinetic, total - dissipated, dissipated
 
 
 def momentum(particles) -> np.ndarray:
@@ -48,6 +55,12 @@ def green_strain(particles) -> np.ndarray:
     return 0.5 * (np.einsum("nki,nkj->nij", F, F) - np.eye(3))
 
 
+def from_history(particles, column: int) -> np.ndarray:
+    """Return a column of the history, shape (n,); zeros if no law of the model has a history."""
+    history = particles.history
+    return history[:, column] if history.shape[1] else np.zeros(len(history))
+
+
 FIELDS = {
     "stress": cauchy_stress,
     "strain": green_strain,
@@ -56,4 +69,6 @@ FIELDS = {
     "acceleration": lambda p: p.acceleration,
     "deformation_gradient": solid_gradient,
     "energy": lambda p: p.work,
+    "dissipated_energy": lambda p: from_history(p, DISSIPATED),
+    "plastic_strain": lambda p: from_history(p, PLASTIC_STRAIN),
 }

@@ -4,6 +4,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+# Columns of Particles.history. The first two mean the same in every law that has a history.
+DISSIPATED = 0  # energy per initial volume that plastic and viscous strain have taken, J/m^3
+PLASTIC_STRAIN = 1  # equivalent plastic strain; zero for laws without one
+OWN = 2  # first column of the law's own
+
 
 class Particles(NamedTuple):
     """State of all particles; first axis = particle, `dim` = 2 or 3.
@@ -20,16 +25,18 @@ class Particles(NamedTuple):
     stress: np.ndarray  # (n, 4 or 6) Kirchhoff stress xx, yy, zz, xy[, yz, xz], Pa
     L: np.ndarray  # (n, dim*dim) velocity gradient of the last step, 1/s
     work: np.ndarray  # (n,) work of the stress per initial volume, J/m^3
+    history: np.ndarray  # (n, k) what the laws remember; k of the law that needs most, 0 for none
     mass: np.ndarray  # (n,) kg
     volume: np.ndarray  # (n,) at the start, m^3
     body: np.ndarray  # (n,) number of the body in the deck
     id: np.ndarray  # (n,) number of the particle, kept when particles are sorted
 
 
-def particles_at(position, body, mass, volume) -> Particles:
+def particles_at(position, body, mass, volume, memory: int = 0) -> Particles:
     """Return unstressed particles at rest.
 
     position: (n, dim) m; body: (n,); mass: (n,) kg; volume: (n,) m^3
+    memory: columns of the history
     """
     n, dim = position.shape
     return Particles(
@@ -42,6 +49,7 @@ def particles_at(position, body, mass, volume) -> Particles:
         stress=np.zeros((n, 4 if dim == 2 else 6)),
         L=np.zeros((n, dim * dim)),
         work=np.zeros(n),
+        history=np.zeros((n, memory)),
         mass=np.ascontiguousarray(mass, dtype=float),
         volume=np.ascontiguousarray(volume, dtype=float),
         body=np.ascontiguousarray(body, dtype=np.int64),

@@ -17,6 +17,8 @@ UNITS = {
     "acceleration": "m/s^2",
     "deformation_gradient": "1",
     "energy": "J/m^3",
+    "dissipated_energy": "J/m^3",
+    "plastic_strain": "1",
 }
 SHOWN = {
     "xx": "_{xx}",

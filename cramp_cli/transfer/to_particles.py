@@ -8,6 +8,7 @@ parts: (k, 3) runs of particles, first and last + 1, and the band they belong to
 from numpy import uint64
 
 from cramp_cli.materials.geometry import strained
+from cramp_cli.materials.law import Straining
 from cramp_cli.numerics.kernel import kernel, particle_kernel
 from cramp_cli.numerics.tensor import (
     add_outer,
@@ -20,6 +21,7 @@ from cramp_cli.numerics.tensor import (
     plus,
     product,
     scaled,
+    six,
     store,
     times,
     turn,
@@ -159,7 +161,7 @@ def _strain_far(particles, velocity, stencil, law, geometry, shape, strides, wid
             along = factors(vector(strides, local, p), shape)
             _, slopes = take_both(along, strides, base[p], velocity)
             gradient = scaled(from_columns(slopes), per_cell)
-            _strain_one(particles, p, law, geometry, gradient, dt, last)
+            strain_one(particles, p, law, geometry, gradient, dt, last)
 
 
 @particle_kernel
@@ -172,19 +174,22 @@ def _strain_near(particles, velocity, stencil, law, geometry, shape, strides, wi
         for e in range(stencil.entries[line]):
             g = entry_gradient(stencil, strides, line, e, S, G)
             gradient = add_outer(vector(strides, velocity, table[line, e]), g, gradient)
-        _strain_one(particles, p, law, geometry, scaled(gradient, per_cell), dt, last)
+        strain_one(particles, p, law, geometry, scaled(gradient, per_cell), dt, last)
 
 
 @particle_kernel
-def _strain_one(particles, p, law, geometry, gradient, dt, last):
+def strain_one(particles, p, law, geometry, gradient, dt, last):
     """Strain a particle with the velocity gradient for the time dt."""
-    F, stress, L = particles.F, particles.stress, particles.L
+    F, stress, L, stretch = particles.F, particles.stress, particles.L, particles.stretch
     dU = scaled(gradient, dt)
-    turned = turn(dU, stress, p)
-    strain, new = strained(geometry, law, turned, dU)
+    turned = turn(dU, six(dU, stress, p, 0))
+    after = product(increment(dU), matrix(dU, F, p))
+    step = Straining(turned, dU, after, stretch[p], dt)
+    strain, new, past = strained(geometry, law, step, particles.history, p)
     particles.work[p] += work_of(turned, new, strain)
-    particles.stretch[p] *= 1.0 + strain[2] + 0.5 * strain[2] * strain[2]
+    stretch[p] *= 1.0 + strain[2] + 0.5 * strain[2] * strain[2]
+    store(past, particles.history, p, 0)
     store(kept(dU, new), stress, p, 0)
-    store(product(increment(dU), matrix(dU, F, p)), F, p, 0)
+    store(after, F, p, 0)
     if last:
         store(gradient, L, p, 0)

@@ -107,7 +107,11 @@ def test_the_good_deck_is_good(tmp_path):
         ),
         ("materials.glass.G=3", "materials.glass: give E and nu, or K and G"),
         ("materials.glass.nu=", "materials.glass.nu: is missing; it goes with E"),
-        ("materials.glass.law=", "materials.glass.law: must be one of elastic (got nothing)"),
+        (
+            "materials.glass.law=",
+            "materials.glass.law: must be one of elastic, j2_plastic, neo_hookean, mooney_rivlin, "
+            "orthotropic, transverse, viscoelastic, drucker_prager (got nothing)",
+        ),
         (
             "materials.a b={law: elastic, density: 1, E: 1, nu: 0}",
             "materials.a b: must start with a letter and hold only letters, digits, _ and - "

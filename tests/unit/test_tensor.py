@@ -118,7 +118,7 @@ def test_turn_rotates_stress_by_the_cayley_transform_of_the_spin(dim):
     row, T = stresses(dim)
     W = solid(0.5 * (dU - dU.T))
     R = np.linalg.solve(np.eye(3) - 0.5 * W, np.eye(3) + 0.5 * W)
-    close(square(t.turn(flat(dU), row, 0)), R @ T @ R.T)
+    close(square(t.turn(flat(dU), t.six(flat(dU), row, 0, 0))), R @ T @ R.T)
 
 
 @DIMENSIONS
@@ -128,7 +128,7 @@ def test_turn_is_the_rotation_of_the_spin_to_second_order(dim):
     row, T = stresses(dim)
     W = solid(0.5 * (dU - dU.T))
     w = np.linalg.norm(W, 2)
-    wrong = square(t.turn(flat(dU), row, 0)) - expm(W) @ T @ expm(W).T
+    wrong = square(t.turn(flat(dU), t.six(flat(dU), row, 0, 0))) - expm(W) @ T @ expm(W).T
     assert np.linalg.norm(wrong, 2) < 1.01 * w**3 / 6.0 * np.linalg.norm(T, 2)
 
 
@@ -138,7 +138,8 @@ def test_any_turn_keeps_the_principal_stresses(entries):
     """A rotation leaves eigenvalues alone; sums of nine products of numbers below 1, twice."""
     for dim in (2, 3):
         row, T = stresses(dim)
-        turned = square(t.turn(tuple(entries[: dim * dim]), row, 0))
+        dU = tuple(entries[: dim * dim])
+        turned = square(t.turn(dU, t.six(dU, row, 0, 0)))
         np.testing.assert_allclose(
             np.linalg.eigvalsh(turned), np.linalg.eigvalsh(T), rtol=0.0, atol=30 * ROUND_OFF
         )
@@ -164,7 +165,7 @@ def _all_of_them(v, g, A, stress, strain, like):
     T = t.symmetric(v, stress, 0)
     u = t.plus(t.times(v, 0.5), t.dot(v, g), t.apply(g, T))
     B = t.add_outer(u, g, t.product(A, t.increment(A)))
-    turned = t.turn(A, stress, 0)
+    turned = t.turn(A, t.six(A, stress, 0, 0))
     work = t.work_of(turned, t.solid_strain(B, 0.1), strain)
     return t.scaled(t.outer(u, B), t.determinant(B)), t.outer_sum(g, t.zero_matrix(v)), work
 
