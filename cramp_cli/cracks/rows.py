@@ -9,7 +9,14 @@ rest to the row that both sides share.
 
 import numpy as np
 
-from cramp_cli.cracks.crossing import HAIR, ON_CRACK, crossed_cracks, double_area, off_crack
+from cramp_cli.cracks.crossing import (
+    HAIR,
+    ON_CRACK,
+    crossed_cracks,
+    crosses,
+    double_area,
+    off_crack,
+)
 from cramp_cli.cracks.tip_nodes import cut_share
 from cramp_cli.numerics.kernel import inlined_kernel, kernel
 from cramp_cli.shapes.shape import node_steps, offsets
@@ -258,6 +265,33 @@ def box_is_cut(segments, cell, x, y, x0, y0, x1, y1, tolerance):
     return False
 
 
+@inlined_kernel
+def is_imagined(segments, s, x, y, nx, ny, tolerance):
+    """Return whether a line crosses segment `s` only where its tip has been carried on."""
+    ends, real = segments.ends, segments.real
+    carried = ends[s, 0] != real[s, 0] or ends[s, 1] != real[s, 1]
+    carried = carried or ends[s, 2] != real[s, 2] or ends[s, 3] != real[s, 3]
+    return carried and crosses(real, segments.down, s, x, y, nx, ny, tolerance) == 0
+
+
+@inlined_kernel
+def without_imagined(segments, crossed, own, x, y, nx, ny, tolerance):
+    """Return the cracks crossed; those of another tip than the node's count where they are real.
+
+    A tip is carried on to tell the sides ahead of it at its own nodes; at the nodes of a tip that
+    comes to meet it, this would cut what still holds the two together.
+
+    own: crack of the tip that is near the node, or -1
+    """
+    a, side_a, seg_a, b, side_b, seg_b, more = crossed
+    if b >= 0 and b != own and is_imagined(segments, seg_b, x, y, nx, ny, tolerance):
+        b, side_b, seg_b = -1, 0, -1
+    if a >= 0 and a != own and is_imagined(segments, seg_a, x, y, nx, ny, tolerance):
+        a, side_a, seg_a = b, side_b, seg_b
+        b, side_b, seg_b = -1, 0, -1
+    return a, side_a, seg_a, b, side_b, seg_b, more
+
+
 @kernel
 def assign_rows(
     stencil,
@@ -303,8 +337,10 @@ def assign_rows(
             ny = lower[1] + width * (corner[1] + k // side)
             node = base[p] + steps[k]
             nx, ny = off_crack(segments, cell, nx, ny, tolerance)
-            crossed = crossed_cracks(segments, cell, x, y, nx, ny, tolerance)
             tip = rows.tip[node]
+            own = tip // 2 if tip >= 0 else -1
+            crossed = crossed_cracks(segments, cell, x, y, nx, ny, tolerance)
+            crossed = without_imagined(segments, crossed, own, x, y, nx, ny, tolerance)
             if tip < 0:
                 give_row(stencil, rows, segments.ends, line, k, node, crossed)
                 continue

@@ -135,7 +135,9 @@ def _sample(model, state, scratch, tip) -> dict:
         measured, remark = _measure_contour(model, state, scratch, tip, site, normal, slide)
         row |= measured
         remarks.append(remark)
-    if not (grown or any("closed" in remark for remark in remarks)):  # J of a moving tip is its own
+    if grown and row["speed"] > 0.0:  # its J has the kinetic energy in it, and is not that of K
+        remarks.append("doubtful: J is negative" if row["J"] < 0.0 else "")
+    elif not any("closed" in remark for remark in remarks):
         remarks.append(_doubt(model, site, row))
     remarks += _of_law(model, state, site)
     return row | {"status": "; ".join(filter(None, remarks)) or "ok"}

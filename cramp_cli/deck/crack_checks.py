@@ -1,6 +1,7 @@
 """Mistakes and doubts about cracks: where they lie and how finely they are cut."""
 
 from collections.abc import Iterator
+from math import hypot
 from typing import Any
 
 from cramp_cli.deck.bodies import BodySection
@@ -72,6 +73,13 @@ def _is_outside(point: tuple[float, float], regions: list[tuple]) -> bool:
     return not holes or holes[-1]
 
 
+def _ahead(point, before, distance: float) -> tuple[float, float]:
+    """Return the place at a distance (m) out of a crack that ends at a point."""
+    size = hypot(point[0] - before[0], point[1] - before[1]) or 1.0
+    x, y = (p + distance * (p - b) / size for p, b in zip(point, before, strict=True))
+    return x, y
+
+
 def crack_warnings(parts: Parts) -> Iterator[Wrong]:
     """Yield what is possible but seldom meant: coarse particles, odd pieces, tips in the air."""
     cell, regions = parts.grid.cell, _regions(parts)
@@ -81,9 +89,13 @@ def crack_warnings(parts: Parts) -> Iterator[Wrong]:
             share = crack.segment / cell
             usual = f"usual are {SHORTEST:g} to {LONGEST:g}"
             yield (*path, "segment"), f"is {share:.3g} cells; {usual}"
-        for key, point in (("start", crack.corners[0]), ("end", crack.corners[-1])):
-            if getattr(crack, key) == "tip" and _is_outside(point, regions):
+        for key, point, before in (("start", *crack.corners[:2]), ("end", *crack.corners[:-3:-1])):
+            if getattr(crack, key) != "tip":
+                continue
+            if _is_outside(point, regions):
                 yield (*path, key), "is a tip outside every body; 'edge' may be meant"
+            elif _is_outside(_ahead(point, before, cell), regions):
+                yield (*path, key), "is a tip within a cell of free space; 'edge' may be meant"
         yield from _coarse_bodies(parts, crack)
 
 

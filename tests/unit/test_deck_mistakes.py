@@ -17,7 +17,7 @@ bodies:
   - {name: plate, material: glass, shape: {type: rectangle, lower: [0, 0], upper: [10, 10]}}
   - {name: hole, hole: true, shape: {type: disk, center: [5, 5], radius: 2}}
 cracks:
-  - {name: left, points: [[0, 5], [2, 5]]}
+  - {name: left, points: [[0, 5], [2, 5]], start: edge, end: edge}
 boundary:
   - {name: wall, where: {x: 0}, fix: [x]}
 loads:

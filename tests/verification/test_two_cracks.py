@@ -6,6 +6,8 @@ from runs import run_input
 from support import advance, build_deck
 from verification.solutions import center_crack, two_collinear_cracks
 
+from cramp_cli.state.measures import sum_energies
+
 pytestmark = pytest.mark.verification
 
 SIGMA, INNER, OUTER, HALF_WIDTH = 1e6, 0.02, 0.06, 0.2  # Pa, m: as in inputs/two_cracks.yaml
@@ -28,6 +30,38 @@ def test_collinear_cracks_are_those_of_an_infinite_plate():
         assert row["K_I"] == pytest.approx(K_I, rel=0.05)
         assert row["K_I"] == pytest.approx(width * K_I, rel=0.01)
         assert abs(row["K_II"]) < 0.01 * row["K_I"]
+
+
+def test_a_ligament_of_two_cells_between_smooth_tips_holds():
+    """Two cracks from both sides leave a twentieth of a plate that is pulled apart by 0.1 %.
+
+    Smooth tips are felt a little ahead of where they are: 4 % less force than with sharp ones. When
+    each tip was carried on through the other's nodes, nothing was left.
+    """
+    ends = ((0, 0), (19, 0)), ((40, 0), (21, 0))
+    cracks = [
+        {"name": f"c{n}", "points": [[f"{x} mm", f"{y} mm"] for x, y in line], "start": "edge"}
+        for n, line in enumerate(ends)
+    ]
+    shape = {"type": "rectangle", "lower": [0, "-12 mm"], "upper": ["40 mm", "12 mm"]}
+    ramp = {"type": "ramp", "until": "10 us"}
+    grips = [
+        {"where": {"y": f"{side * 12} mm"}, "velocity": {"y": side * 0.3}, "in_time": ramp}
+        for side in (-1, 1)
+    ]
+    energy = {}
+    for tips in ("smooth", "sharp"):
+        deck = {
+            "grid": {"cell": "1 mm"},
+            "bodies": [{"name": "plate", "material": "glass", "shape": shape}],
+            "cracks": cracks,
+            "boundary": grips,
+            "solver": {"tips": tips, "damping": {"grid": 2e4}},
+        }
+        model, state, scratch = build_deck(PLATE, **deck)
+        advance(model, state, scratch, 400)
+        _, energy[tips], _ = sum_energies(state.particles)
+    assert energy["smooth"] == pytest.approx(energy["sharp"], rel=0.15)
 
 
 CELL = 2.0  # mm
