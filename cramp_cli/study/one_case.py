@@ -27,9 +27,9 @@ class Sweep(NamedTuple):
 
 
 def command(sweep: Sweep, case: Case) -> list[str]:
-    """Return the words that run a case."""
+    """Return the words that run a case; one that was stopped with a checkpoint goes on."""
     settings = [word for setting in case.settings for word in ("-s", setting)]
-    run = [str(sweep.deck), "-o", str(sweep.folder.run(case.name)), "--overwrite"]
+    run = [str(sweep.deck), "-o", str(sweep.folder.run(case.name)), "--resume", "auto"]
     how = ["-t", str(sweep.threads), "--progress", "none"]
     return [sys.executable, "-m", "cramp_cli", "-q", "run", *run, *how, *settings]
 
