@@ -62,6 +62,9 @@ def hold_momentum(momentum, mass, held_rows, count, axis, velocity):
 def hold_force(grid, held_rows, count, axis, velocity, dt):
     """Change forces so that the coming momentum update gives the prescribed velocity.
 
+    The strain updates of the step already move these rows with the prescribed velocity: what the
+    other forces of a row do over the difference is work of the boundary as well.
+
     returns: sum of the changes, the reaction of the boundary (N), and its work on the rows (J)
     """
     mass, momentum, force = grid.mass, grid.momentum, grid.force
@@ -72,7 +75,10 @@ def hold_force(grid, held_rows, count, axis, velocity, dt):
             wanted = (mass[row] * velocity - momentum[row, axis]) / dt
             change = wanted - force[row, axis]
             reaction += change
-            work += change * dt * 0.5 * (velocity + momentum[row, axis] / mass[row])
+            before = momentum[row, axis] / mass[row]
+            work += (
+                0.5 * dt * (change * (velocity + before) - force[row, axis] * (velocity - before))
+            )
             force[row, axis] = wanted
     return reaction, work
 
