@@ -33,9 +33,13 @@ def _(shape, stride):
 @along_axis.implement(UniformGimp)
 def _(shape, axis, r):
     # Up to 1 - l from its first node a particle is linear; beyond, it reaches into the next cell.
-    # Written with a maximum, the functions need no branch, which no processor could guess.
+    # Written with maxima, the functions need no branch, which no processor could guess. Where a
+    # particle hardly sees its first or last node, value and slope come from the same small number:
+    # their ratio decides whether schemes without a second extrapolation are stable.
     l = shape.half[axis]  # noqa: E741 - the letter of the paper
+    left = 1.0 + l - r
+    within = min(left, 2.0 * l)
     beyond = max(0.0, r - (1.0 - l))
-    d_last = beyond * (0.5 / l)
-    last = 0.5 * beyond * d_last
-    return (1.0 - r + last, r - 2.0 * last, last), (d_last - 1.0, 1.0 - 2.0 * d_last, d_last)
+    d_first, d_last = within * (0.5 / l), beyond * (0.5 / l)
+    first, last = 0.5 * within * d_first + (left - within), 0.5 * beyond * d_last
+    return (first, 1.0 - first - last, last), (-d_first, d_first - d_last, d_last)

@@ -178,3 +178,13 @@ def test_a_particle_without_all_its_nodes_is_found(shape, x):
         for d, c in enumerate(np.nan_to_num(x, nan=-1.0))
     )
     assert gone(stencil, position, shape, lattice) == (-1 if inside else 1)
+
+
+@pytest.mark.parametrize("away", [1e-3, 1e-6, 1e-9, 1e-12])
+def test_value_and_slope_of_a_node_hardly_seen_belong_together(away):
+    """S = l (dS/dx)^2 at either end: what USL without second sums divides by must not be noise."""
+    shape = UniformGimp((0.25, 0.25))
+    for place, node in ((1.25 - away, 0), (0.75 + away, 2)):
+        values, slopes = along_axis(shape, 0, place)
+        assert values[node] == pytest.approx(0.25 * slopes[node] ** 2, rel=1e-12)
+        assert abs(slopes[node]) == pytest.approx(2.0 * away, rel=1e-3)
