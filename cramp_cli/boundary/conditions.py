@@ -98,6 +98,7 @@ def meet_rows(conditions, scratch, width) -> None:
             [np.zeros(3 * len(h.held.node) + 8, dtype=np.int64), 0] for h in conditions.holds
         ]
         scratch.free = [np.zeros(len(p.mirror.on), dtype=np.bool_) for p in conditions.mirrors]
+        scratch.share = np.ones(len(scratch.rows.first))
     for hold, entry in zip(conditions.holds, scratch.held, strict=True):
         held = hold.held
         entry[1] = find_held_rows(
@@ -126,6 +127,17 @@ def meet_rows(conditions, scratch, width) -> None:
                 count,
                 width,
             )
+    _share_nodes(conditions, scratch)
+
+
+def _share_nodes(conditions, scratch) -> None:
+    """Tell which part of the sums of a node is the body's own: the rest is its image's."""
+    share = scratch.share
+    if conditions.mirrors:
+        share[:] = 1.0
+    for plane, free in zip(conditions.mirrors, scratch.free, strict=True):
+        share[plane.mirror.on] *= np.where(free, 1.0, 0.5)
+        share[plane.mirror.outside] = 0.0
 
 
 def reflect_mass_and_momentum(conditions, scratch) -> None:
@@ -184,7 +196,8 @@ def hold_forces(conditions, scratch, state, time, dt) -> None:
     """Impose the prescribed velocities on the forces; book reactions and work."""
     for hold, (rows, count) in zip(conditions.holds, scratch.held, strict=True):
         speed = hold.value * hold.curve.value(time)
-        reaction, work = hold_force(scratch.grid, rows, count, hold.held.axis, speed, dt)
+        where = (scratch.grid, scratch.rows, scratch.share, rows, count)
+        reaction, work = hold_force(*where, hold.held.axis, speed, dt)
         state.reactions[hold.boundary, hold.held.axis] += reaction
         state.books.external[0] += work
 
@@ -193,7 +206,8 @@ def hold_after_contact(conditions, scratch, state, time, dt) -> None:
     """Impose the velocities once more, on momenta and forces that contact has changed."""
     for hold, (rows, count) in zip(conditions.holds, scratch.held, strict=True):
         speed = hold.value * hold.curve.value(time)
-        reaction = hold_again(scratch.grid, rows, count, hold.held.axis, speed, dt)
+        where = (scratch.grid, scratch.rows, scratch.share, rows, count)
+        reaction = hold_again(*where, hold.held.axis, speed, dt)
         state.reactions[hold.boundary, hold.held.axis] += reaction
         state.books.external[0] += reaction * speed * dt
 

@@ -59,8 +59,17 @@ def hold_momentum(momentum, mass, held_rows, count, axis, velocity):
 
 
 @kernel
-def hold_force(grid, held_rows, count, axis, velocity, dt):
+def own_share(rows, share, row):
+    """Return how much of what acts on a row acts on the body, not on its image."""
+    nodes = len(rows.first)
+    return share[row] if row < nodes else share[rows.node[row - nodes]]
+
+
+@kernel
+def hold_force(grid, rows, share, held_rows, count, axis, velocity, dt):
     """Change forces so that the coming momentum update gives the prescribed velocity.
+
+    share: (nodes,) of a node's sums that are the body's: 1/2 on a symmetry plane, 0 beyond it
 
     The strain updates of the step already move these rows with the prescribed velocity: what the
     other forces of a row do over the difference is work of the boundary as well.
@@ -73,18 +82,17 @@ def hold_force(grid, held_rows, count, axis, velocity, dt):
         row = held_rows[i]
         if mass[row] > 0.0:
             wanted = (mass[row] * velocity - momentum[row, axis]) / dt
-            change = wanted - force[row, axis]
-            reaction += change
-            before = momentum[row, axis] / mass[row]
-            work += (
-                0.5 * dt * (change * (velocity + before) - force[row, axis] * (velocity - before))
-            )
+            change, before = wanted - force[row, axis], momentum[row, axis] / mass[row]
+            twice = change * (velocity + before) - force[row, axis] * (velocity - before)
+            own = own_share(rows, share, row)
+            reaction += own * change
+            work += own * 0.5 * dt * twice
             force[row, axis] = wanted
     return reaction, work
 
 
 @kernel
-def hold_again(grid, held_rows, count, axis, velocity, dt):
+def hold_again(grid, rows, share, held_rows, count, axis, velocity, dt):
     """Set p = m v in the held rows and the forces to match; return the sum of changes (N)."""
     mass, momentum, force = grid.mass, grid.momentum, grid.force
     reaction = 0.0
@@ -93,7 +101,7 @@ def hold_again(grid, held_rows, count, axis, velocity, dt):
         change = mass[row] * velocity - momentum[row, axis]
         momentum[row, axis] += change
         force[row, axis] += change / dt
-        reaction += change / dt
+        reaction += own_share(rows, share, row) * change / dt
     return reaction
 
 

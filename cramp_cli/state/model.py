@@ -112,6 +112,7 @@ class Scratch:
     origins: Any = None  # numbers of the particles by the cells in which they started
     held: list | None = None  # rows held by each velocity condition, and their number
     free: list | None = None  # nodes of each symmetry plane that lie on its crack
+    share: np.ndarray | None = None  # (nodes,) of the sums of a node that are the body's own
 
     @property
     def row_count(self) -> int:

@@ -17,6 +17,7 @@ bodies: [{name: plate, material: m, shape: {type: rectangle, lower: [0, 0], uppe
 solver: {end_time: 1, dt: 0.01}
 """
 HELD = np.array([2, 0])
+ROWS, WHOLE = make_grid(3, 2, 0)[1], np.ones(3)
 
 
 @pytest.fixture
@@ -39,7 +40,7 @@ def test_force_that_brings_held_rows_to_their_velocity(grid):
     Its work and that of the other 7 N, which the strain updates let act at the prescribed velocity,
     are the change of kinetic energy, 16 - 1/4.
     """
-    reaction, work = hold_force(grid, HELD, 2, 0, 4.0, 0.1)
+    reaction, work = hold_force(grid, ROWS, WHOLE, HELD, 2, 0, 4.0, 0.1)
     assert grid.force[:, 0] == pytest.approx([70.0, 9.0, 0.0])
     assert reaction == pytest.approx(63.0)
     assert work + 7.0 * 4.0 * 0.1 == pytest.approx(16.0 - 0.25)
@@ -58,8 +59,22 @@ def test_the_books_close_for_a_bar_that_is_drawn_out():
     assert kinetic + stored == pytest.approx(work, rel=1e-4)
 
 
+@pytest.mark.parametrize("both", [False, True])
+def test_the_reaction_beside_a_symmetry_plane_is_that_of_the_body(both):
+    """A quarter or half of a plate, gripped at x = 0, pulled at x = 8 by 1e-3: reaction -8e-3."""
+    plane = [{"where": {"y": 0}, "symmetry": True}, {"where": {"y": 8}, "symmetry": True}]
+    model, state, scratch = build_deck(
+        PLATE,
+        boundary=[{"where": {"x": 0}, "fix": ["x"]}, *plane[: 1 + both]],
+        loads=[{"type": "traction", "body": "plate", "where": {"x": 8}, "traction": [1e-3, 0]}],
+        solver={"damping": {"grid": 0.28}, "dt": 0.5},
+    )
+    advance(model, state, scratch, 400)
+    assert state.reactions[0, 0] == pytest.approx(-8e-3, rel=1e-3)
+
+
 def test_holding_again_after_contact_changes_momentum_and_force_alike(grid):
-    assert hold_again(grid, HELD, 2, 0, 4.0, 0.1) == pytest.approx(70.0)
+    assert hold_again(grid, ROWS, WHOLE, HELD, 2, 0, 4.0, 0.1) == pytest.approx(70.0)
     assert grid.momentum[:, 0].tolist() == [8.0, 5.0, 0.0]
     assert grid.force[:, 0] == pytest.approx([77.0, 9.0, 0.0])
 
