@@ -7,7 +7,7 @@ from time import perf_counter
 import numpy as np
 
 from cramp_cli.cracks.fields import find_rows, list_cracks
-from cramp_cli.cracks.grow import grow
+from cramp_cli.cracks.grow import blind_tips, grow
 from cramp_cli.cracks.tips import sample_tips
 from cramp_cli.output.summary import Summary
 from cramp_cli.scratch import make_scratch
@@ -188,6 +188,9 @@ class _Run:
         if self.model.propagation is not None:
             with self.watch("10 cracks grow"):
                 self.outputs.growth(grow(self.model, self.state, self.scratch))
+            for name in blind_tips(self.model, self.state):
+                text = f"no domain fits around the tip {name}: it has no load and can not grow"
+                self._tell(f"blind {name}", text)
 
     def after_step(self) -> None:
         """Look after the solution and write what is due."""

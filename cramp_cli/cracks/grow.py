@@ -14,16 +14,17 @@ from cramp_cli.cracks.criteria.directions import GIVEN, OWN, turn_by
 from cramp_cli.cracks.criteria.load import Load
 from cramp_cli.cracks.extend import add_point, end_point, make_room, move_end
 from cramp_cli.cracks.intensity import open_and_slide, opening_near_tip
-from cramp_cli.cracks.meeting import first_met, has_left_body, leave_body
+from cramp_cli.cracks.meeting import first_met, has_left_body, leave_body, stay_on_grid
 from cramp_cli.cracks.speed import Pull
 from cramp_cli.cracks.tip_load import LONG, line_of, load_on
 from cramp_cli.cracks.tips import USUAL, Tip, crack_length, tips_of
 from cramp_cli.state.growth import BLIND, HELD
-from cramp_cli.state.paths import EDGE, PLAIN
+from cramp_cli.state.paths import EDGE, PLAIN, TIP
 
 CORNER = 0.4363  # a turn of more than this (25 degrees, rad) is a corner
 TURNING = 2.0  # cells on the way of which a running tip turns
 LEAST_MOVE = 1e-3  # growth shorter than this (cells) waits before it begins a new piece
+UNSEEN = 6.0  # cells that a tip runs on with its last load where no domain fits
 ARREST = 10.0  # cells a Rayleigh wave travels before a tip at rest counts as arrested
 
 
@@ -57,9 +58,19 @@ def grow(model, state, scratch) -> list[dict]:
         return []
     rows = []
     for tip in tips_of(state.paths):
-        if model.propagation.cracks[tip.crack]:
+        still = state.paths.ends[tip.crack, tip.end] == TIP  # another tip may have ended on it
+        if still and model.propagation.cracks[tip.crack]:
             rows += _grow_tip(model, state, scratch, _at_end(state.paths, tip))
     return rows
+
+
+def blind_tips(model, state) -> list[str]:
+    """Return the tips that can not begin to grow because nobody knows their load."""
+    return [
+        f"{model.crack_names[tip.crack]} {('start', 'end')[tip.end]}"
+        for tip in tips_of(state.paths)
+        if model.propagation.cracks[tip.crack] and state.growth.stage[line_of(tip)] == BLIND
+    ]
 
 
 def _at_end(paths, tip) -> Tip:
@@ -72,6 +83,8 @@ def _grow_tip(model, state, scratch, tip) -> list[dict]:
     growth, k = state.growth, line_of(tip)
     found = load_on(model, state, scratch, tip)
     growth.load[k], growth.stage[k] = found[:3], found.stage
+    if found.stage != HELD:
+        growth.unseen[k] = 0.0
     resistance = model.propagation.resistance.get(found.site.block.material)
     if resistance is None or found.stage == BLIND:
         growth.speed[k] = 0.0
@@ -96,6 +109,8 @@ def _speed(model, state, tip, resistance, load) -> float:
     if begun or state.time >= settings.begin - 0.5 * model.dt:
         drive = max(drive, 1.0)
     if crack_length(state.paths, tip.crack) >= settings.longest:
+        return 0.0
+    if growth.unseen[k] > UNSEEN * model.lattice.width:
         return 0.0
     release, width = load.J / resistance.G_Ic, model.lattice.width
     pull = Pull(drive, release, float(growth.speed[k]), resistance.rayleigh, model.dt, width)
@@ -127,27 +142,33 @@ def _run(model, state, scratch, tip, found, load, criterion) -> list[dict]:
         now = _begin_piece(model, state, scratch, tip, load, criterion, now)
         tip = _at_end(state.paths, tip)
     heading = growth.heading[k]
-    reach, met, kind = first_met(model, state, tip, heading, now, step)
-    move_end(state.paths, tip.crack, tip.end, reach * heading, reach * np.array(now))
-    growth.piece[k] += reach
+    met = first_met(model, state, tip, now, step)
+    before, after = (met.before, met.now) if met else (step * heading, step * np.array(now))
+    move_end(state.paths, tip.crack, tip.end, before, after)
+    reach = float(np.hypot(*before))
+    for lengths in (growth.piece, growth.length, growth.kink, growth.unseen):
+        lengths[k] += reach
     growth.mean[k] += reach * growth.load[k, 1:]
-    growth.length[k] += reach
-    growth.kink[k] += reach
     if growth.kink[k] > max(LONG, USUAL) * model.lattice.width:
         growth.kink[k] = inf
     _book(model, state, tip, found, reach)
     if begins:
         rows.append(_row(model, state, tip, "growth"))
     if met:
-        state.paths.ends[tip.crack, tip.end] = PLAIN
-        growth.speed[k] = 0.0
-        rows.append(_row(model, state, tip, kind))
-    elif has_left_body(model, state, tip):
+        ended = [tip] if met.other is None else [tip, Tip(*met.other, tip.points)]
+        return rows + [_end(model, state, one, PLAIN, "merge") for one in ended]
+    stay_on_grid(model, state, tip)
+    if has_left_body(model, found.site.cloud, state.paths.origin[tip.points[0]]):
         leave_body(model, state, tip, heading, now)
-        state.paths.ends[tip.crack, tip.end] = EDGE
-        growth.speed[k] = 0.0
-        rows.append(_row(model, state, tip, "edge"))
+        rows.append(_end(model, state, tip, EDGE, "edge"))
     return rows
+
+
+def _end(model, state, tip, what, kind) -> dict:
+    """Make a tip an end that grows no more; return the row that tells of it."""
+    state.paths.ends[tip.crack, tip.end] = what
+    state.growth.speed[line_of(tip)] = 0.0
+    return _row(model, state, tip, kind)
 
 
 def _begin_piece(model, state, scratch, tip, load, criterion, now) -> tuple:

@@ -1,24 +1,30 @@
 """What a growing tip meets: the surface of the body, another crack, the end of the grid."""
 
+from typing import NamedTuple
+
 import numpy as np
 
 from cramp_cli.cracks.extend import end_point, move_end
 from cramp_cli.state.failure import NumericalFailure
+from cramp_cli.state.paths import TIP
 
 AHEAD = 0.25  # a crack this near ahead of a tip (cells) is met
+BESIDE = (
+    0.5  # so is one that the tip would pass within this distance (cells): nothing could hold it
+)
 OUTSIDE = 1.05  # distance from the nearest particle, in half diagonals of it, beyond which is air
 BEYOND = 0.5  # the last piece of a crack that has left the body is at least this long (cells)
 RECENT = 3  # pieces behind a tip that it can not run into
 
 
-def has_left_body(model, state, tip) -> bool:
-    """Return whether no particle holds the tip."""
-    place = state.paths.origin[tip.points[0]]
-    away = np.sum((state.particles.origin - place) ** 2, axis=1)
+def has_left_body(model, cloud, place) -> bool:
+    """Return whether no particle holds a place of the undeformed body; cloud: those around it."""
+    if not cloud.parts:
+        return True
+    away = np.sum((cloud.particles.origin - place) ** 2, axis=1)
     nearest = int(np.argmin(away))
-    shape = next(b.shape for b in model.blocks if b.lo <= nearest < b.hi)
+    shape = next(block.shape for block, lo, hi in cloud.parts if lo <= nearest < hi)
     reach = OUTSIDE * model.lattice.width * np.hypot(*shape.half)
-    _stay_on_grid(model, state, tip)
     return bool(away[nearest] > reach * reach)
 
 
@@ -32,7 +38,8 @@ def leave_body(model, state, tip, heading, now) -> None:
         move_end(state.paths, tip.crack, tip.end, rest * heading, rest * np.array(now))
 
 
-def _stay_on_grid(model, state, tip) -> None:
+def stay_on_grid(model, state, tip) -> None:
+    """Raise NumericalFailure for a tip in the outermost cells."""
     lattice, place = model.lattice, state.paths.point[tip.points[0]]
     low = np.array(lattice.lower) + lattice.width
     high = np.array(lattice.lower) + lattice.width * (np.array(lattice.cells) - 1)
@@ -46,34 +53,76 @@ def _stay_on_grid(model, state, tip) -> None:
         )
 
 
-def first_met(model, state, tip, heading, now, step) -> tuple[float, bool, str]:
-    """Return how far a tip gets in a step (m), whether it meets a crack there, and the event.
+class Met(NamedTuple):
+    """Where a tip ends on a crack."""
 
-    heading, now: unit vectors of the way in the undeformed body and now; step: m
+    before: np.ndarray  # way to there in the undeformed body (m)
+    now: np.ndarray  # the same now (m)
+    other: tuple | None  # crack and end of the tip that is met, if it is one
+
+
+def first_met(model, state, tip, now, step) -> Met | None:
+    """Return what a tip meets in a step (m), or None.
+
+    now: unit vector of the way. What it meets is the nearest crack ahead, or one that it would pass
+    too closely: two tips that come to meet each other are hardly ever on one line.
     """
-    paths, now = state.paths, np.array(now)
-    tip_point = paths.point[end_point(paths, tip.crack, tip.end)]
-    reach = step + AHEAD * model.lattice.width
-    nearest = np.inf
+    paths, width, now = state.paths, model.lattice.width, np.array(now)
+    at = end_point(paths, tip.crack, tip.end)
+    nearest, found = np.inf, None
     for crack in range(paths.crack_count):
-        line = paths.point[paths.crack(crack)]
+        points = np.arange(paths.start[crack], paths.start[crack + 1])
         if crack == tip.crack:
-            line = line[: -RECENT - 1] if tip.end else line[RECENT + 1 :]
-        if len(line) > 1:
-            nearest = min(nearest, _distance_along(tip_point, now, line))
-    if nearest > reach:
-        return step, False, ""
-    return nearest, True, "merge"
+            points = points[: -RECENT - 1] if tip.end else points[RECENT + 1 :]
+        if len(points) < 2:
+            continue
+        ends = paths.point[points] - paths.point[at]
+        away, piece, share = _ahead(ends, now)
+        limit = step + AHEAD * width
+        if piece < 0:
+            away, piece, share = _beside(ends, now)
+            limit = BESIDE * width
+        if away < min(limit, nearest):
+            nearest = away
+            found = _met(paths, at, crack, points[piece], share, BESIDE * width)
+    return found
 
 
-def _distance_along(place, way, line) -> float:
-    """Return how far along a unit vector a place is from a polyline; inf if it misses it."""
-    a, b = line[:-1] - place, line[1:] - place
+def _met(paths, at, crack, piece, share, near) -> Met:
+    """Return how a crack is met in a piece of it, at a share of the piece's length."""
+    before, now = (
+        (1.0 - share) * line[piece] + share * line[piece + 1] - line[at]
+        for line in (paths.origin, paths.point)
+    )
+    for end in (0, 1):
+        there = paths.point[end_point(paths, crack, end)] - paths.point[at] - now
+        if paths.ends[crack, end] == TIP and np.hypot(*there) < near:
+            return Met(before, now, (crack, end))
+    return Met(before, now, None)
+
+
+def _ahead(ends, way) -> tuple[float, int, float]:
+    """Return how far ahead a polyline is cut, in which piece, and where; piece -1 if it is not.
+
+    ends: (n, 2) points of the polyline from the place; way: unit vector
+    """
+    a, b = ends[:-1], ends[1:]
     side_a, side_b = (way[0] * p[:, 1] - way[1] * p[:, 0] for p in (a, b))
-    cut = (side_a > 0.0) != (side_b > 0.0)
-    if not cut.any():
-        return np.inf
+    cut = np.flatnonzero((side_a > 0.0) != (side_b > 0.0))
     share = side_a[cut] / (side_a[cut] - side_b[cut])
     along = (a[cut] + share[:, None] * (b[cut] - a[cut])) @ way
-    ahead = along[along >= 0.0]
-    return float(ahead.min()) if len(ahead) else np.inf
+    cut, share, along = (values[along >= 0.0] for values in (cut, share, along))
+    if not len(cut):
+        return np.inf, -1, 0.0
+    first = int(np.argmin(along))
+    return float(along[first]), int(cut[first]), float(share[first])
+
+
+def _beside(ends, way) -> tuple[float, int, float]:
+    """Return how near a polyline is at its nearest point, and where; inf if that lies behind."""
+    a, edge = ends[:-1], np.diff(ends, axis=0)
+    share = np.clip(-np.sum(a * edge, axis=1) / np.sum(edge * edge, axis=1), 0.0, 1.0)
+    there = a + share[:, None] * edge
+    piece = int(np.argmin(np.sum(there * there, axis=1)))
+    away = float(np.hypot(*there[piece])) if there[piece] @ way > 0.0 else np.inf
+    return away, piece, float(share[piece])

@@ -24,6 +24,7 @@ class Growth(NamedTuple):
     load: np.ndarray  # (ends, 3) J (J/m^2), K_I, K_II (Pa sqrt(m)) when last found
     mean: np.ndarray  # (ends, 2) sums of K_I and K_II times the way of the piece (Pa m^1.5)
     stage: np.ndarray  # (ends,) where the load was found: OWN, KINK, ...
+    unseen: np.ndarray  # (ends,) length grown since the load was last found (m)
     running: np.ndarray  # (ends,) 1 from the onset to an arrest
     rested: np.ndarray  # (ends,) time at rest since it last moved (s)
     length: np.ndarray  # (ends,) grown so far (m)
@@ -48,6 +49,7 @@ def make_growth(paths) -> Growth:
         load=np.zeros((n, 3)),
         mean=np.zeros((n, 2)),
         stage=np.full(n, BLIND, dtype=np.int64),
+        unseen=np.zeros(n),
         running=np.zeros(n, dtype=np.int64),
         rested=np.zeros(n),
         length=np.zeros(n),

@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 from support import build_deck
 
+from cramp_cli.cracks.cloud import cloud_around
 from cramp_cli.cracks.crossing import make_segments
 from cramp_cli.cracks.extend import add_point, end_point, make_room, move_end
-from cramp_cli.cracks.meeting import first_met, has_left_body
+from cramp_cli.cracks.meeting import first_met, has_left_body, stay_on_grid
 from cramp_cli.cracks.speed import (
     ALMOST,
     EnergyBalance,
@@ -107,18 +108,25 @@ def flat_tip(place):
 @pytest.mark.parametrize(
     ("place", "step", "found"),
     [
-        ((8.0, 5.0), 0.5, (0.5, False, "")),
-        ((8.5, 5.0), 0.1, (0.1, False, "")),
-        ((8.7, 5.0), 0.1, (0.3, True, "merge")),
-        ((8.95, 5.0), 0.1, (0.05, True, "merge")),
-        ((8.95, 1.5), 0.1, (0.1, False, "")),
-        ((9.1, 5.0), 0.1, (0.1, False, "")),
+        ((8.0, 5.0), 0.5, None),
+        ((8.5, 5.0), 0.1, None),
+        ((8.7, 5.0), 0.1, (0.3, 0.0)),
+        ((8.95, 5.0), 0.1, (0.05, 0.0)),
+        ((8.95, 1.5), 0.1, None),  # half a cell below the end of it
+        ((8.95, 1.6), 0.1, (0.05, 0.4)),  # nearer
+        ((8.4, 1.9), 0.1, None),  # it is not there yet
+        ((9.1, 5.0), 0.1, None),
     ],
 )
 def test_another_crack_ahead(place, step, found):
     model, state, tip = flat_tip(place)
-    reach, met, kind = first_met(model, state, tip, (1.0, 0.0), (1.0, 0.0), step)
-    assert (pytest.approx(reach), met, kind) == found
+    met = first_met(model, state, tip, (1.0, 0.0), step)
+    if found is None:
+        assert met is None
+        return
+    assert met.now == pytest.approx(found)
+    assert met.before == pytest.approx(found)
+    assert met.other == (None if found[1] == 0.0 else (1, 0))
 
 
 @pytest.mark.parametrize(
@@ -127,11 +135,12 @@ def test_another_crack_ahead(place, step, found):
 )
 def test_free_surface(place, out):
     """Particles are half a cell wide: air begins an eighth of a cell outside at the latest."""
-    model, state, tip = flat_tip(place)
-    assert has_left_body(model, state, tip) is out
+    model, state, scratch = build_deck(DECK)
+    cloud = cloud_around(model, state, scratch, place, 3.0)
+    assert has_left_body(model, cloud, np.array(place)) is out
 
 
 def test_border_of_the_grid():
     model, state, tip = flat_tip((21.5, 5.0))
     with pytest.raises(NumericalFailure, match="crack flat has grown to the border of the grid"):
-        has_left_body(model, state, tip)
+        stay_on_grid(model, state, tip)

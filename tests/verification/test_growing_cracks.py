@@ -76,6 +76,28 @@ def test_a_crack_goes_past_one_that_is_not_in_its_way():
     assert state.paths.origin[state.paths.start[1] - 1, 0] > 13.0
 
 
+@pytest.mark.parametrize("offset", [0.0, 0.1, 0.45])
+def test_two_tips_that_come_to_meet_each_other_become_one_crack(offset):
+    left = {"name": "left", "points": [[0, 5.2], [6, 5.2]], "start": "edge"}
+    right = {"name": "right", "points": [[20, 5.2 + offset], [14, 5.2 + offset]], "start": "edge"}
+    _, state, events = run(90, cracks=[left, right])
+    assert [row["kind"] for row in events[-2:]] == ["merge", "merge"]
+    assert state.paths.ends.tolist() == [[EDGE, PLAIN], [EDGE, PLAIN]]
+    ends = state.paths.point[[state.paths.start[1] - 1, state.paths.start[2] - 1]]
+    assert np.hypot(*(ends[0] - ends[1])) < 0.5
+    assert 9.0 < ends[0, 0] < 11.0
+
+
+def test_a_tip_that_nobody_can_measure_does_not_run_for_ever():
+    """Along another crack, one cell beside it: no domain fits, the last load is that of before."""
+    wall = {"name": "wall", "points": [[8, 6.3], [19, 6.3]], "start": "plain", "end": "plain"}
+    flat = {"name": "flat", "points": [[0, 5.2], [3, 5.2]], "start": "edge"}
+    rule = {"speed": {"law": "prescribed", "value": 0.25}}
+    _, state, events = run(200, cracks=[flat, wall], propagation=rule)
+    assert events[-1]["kind"] == "arrest"
+    assert 6.0 < state.growth.unseen[1] < 7.0
+
+
 def test_no_crack_grows_beyond_its_longest():
     _, state, events = run(100, propagation={"max_length": 8})
     assert 2.0 <= state.growth.length[1] < 2.0 + 0.25 * 0.6
