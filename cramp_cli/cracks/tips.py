@@ -7,7 +7,7 @@ number. A crack on a symmetry plane has half a domain; the other half is its ima
 """
 
 from dataclasses import dataclass
-from math import hypot, isnan, nan
+from math import hypot, nan
 from typing import Any
 
 import numpy as np
@@ -24,24 +24,19 @@ from cramp_cli.cracks.domain_integral import (
     integrate_domain,
     material_beside,
 )
+from cramp_cli.cracks.doubts import doubts
 from cramp_cli.cracks.face_terms import rubbed_off
 from cramp_cli.cracks.intensity import K_from_J, open_and_slide, opening_near_tip
 from cramp_cli.cracks.room import find_room
 from cramp_cli.materials.geometry import is_plane_stress
 from cramp_cli.materials.law import poisson_ratio, same_law, shear_modulus
 from cramp_cli.state.growth import BLEND, HELD, KINK
-from cramp_cli.state.measures import from_history
-from cramp_cli.state.particles import DISSIPATED
 from cramp_cli.state.paths import TIP
 
 BESIDE = 3.0  # cells behind a tip and beside the crack in which the sides are told apart
 USUAL, SMALLEST = 5.0, 2.5  # radius of the domain in cells, and the least that gives a number
 REACH = 8.0  # cells around a tip or the corner of a kink that an integral can want
 SPREAD = (0.8, 1.0, 1.2)  # radii that are compared, in shares of the radius
-DOUBTFUL = 0.2  # share by which two numbers for one J may differ
-NOISE = 0.01  # share of the strain energy around the tip that is no J
-ROUND_OFF = 1e-12  # a strain that is none
-TAKEN = 0.01  # share of the work around the tip that plastic and viscous strain may have taken
 STAGES = {
     KINK: "kink: from the field around the corner",
     BLEND: "kink: partly from the field around the corner",
@@ -135,11 +130,9 @@ def _sample(model, state, scratch, tip) -> dict:
         measured, remark = _measure_contour(model, state, scratch, tip, site, normal, slide)
         row |= measured
         remarks.append(remark)
-    if grown and row["speed"] > 0.0:  # its J has the kinetic energy in it, and is not that of K
-        remarks.append("doubtful: J is negative" if row["J"] < 0.0 else "")
-    elif not any("closed" in remark for remark in remarks):
-        remarks.append(_doubt(model, site, row))
-    remarks += _of_law(model, state, site)
+    row["status"] = "; ".join(filter(None, remarks))
+    moving = bool(grown and row["speed"] > 0.0)
+    remarks += doubts(model, site, row, moving)
     return row | {"status": "; ".join(filter(None, remarks)) or "ok"}
 
 
@@ -261,43 +254,6 @@ def _measure_domain(model, state, scratch, tip, site):
         K_I, status = 0.0, "; ".join(filter(None, ["closed", status]))
         K_II -= rubbed_off(model, site, tip.crack, inner, radius)
     return {"J": J, "K_I": K_I, "K_II": K_II, "J_spread": spread}, status
-
-
-def _doubt(model, site, row) -> str:
-    """Say so where two numbers for the same thing are far apart.
-
-    J that is not that of K: the field around the tip is not that of a crack. A contour far from a
-    domain: the contour misses something. What is nothing beside the strain energy around the tip is
-    noise.
-    """
-    radius, particles = USUAL * model.lattice.width, site.cloud.particles
-    near = np.hypot(*(particles.origin - site.frame.origin).T) < radius
-    energy = float(particles.work[near].sum()) / max(int(near.sum()), 1)
-    energy += ROUND_OFF**2 * site.hooke.stiffness
-    J, of_K = row["J"], (row["K_I"] ** 2 + row["K_II"] ** 2) / site.hooke.stiffness
-    texts = {
-        "doubtful: J and that of K differ by {:.0f} %": (J, of_K),
-        "contour doubtful: {:.0f} % from the domain": (J, row["J_contour"]),
-    }
-    found = []
-    for text, (one, other) in texts.items():
-        off, larger = abs(one - other), max(abs(one), abs(other))
-        if off > max(DOUBTFUL * larger, NOISE * radius * energy):
-            found.append(text.format(100.0 * off / larger))
-    return "; ".join(found)
-
-
-def _of_law(model, state, site) -> list[str]:
-    """Say what the law at the tip takes from J and K, which belong to an elastic solid."""
-    near = np.hypot(*(state.particles.origin - site.frame.origin).T) < USUAL * model.lattice.width
-    taken = float(from_history(state.particles, DISSIPATED)[near].sum())
-    work, found = float(state.particles.work[near].sum()), []
-    if isnan(site.hooke.shear):
-        found.append("K invalid: the stiffness of the material depends on direction or time")
-    if taken > TAKEN * work:
-        text = "doubtful: plastic or viscous strain took {:.0f} % of the work around the tip"
-        found.append(text.format(100.0 * taken / work))
-    return found
 
 
 def _spread(J, others) -> float:

@@ -270,3 +270,15 @@ def test_a_cloud_holds_all_particles_around_a_place():
         np.testing.assert_array_equal(found, everyone)
         assert len(cloud.particles.id) < len(state.particles.id)
         assert sum(hi - lo for _, lo, hi in cloud.parts) == len(cloud.particles.id)
+
+
+def test_a_solid_that_turns_fast_makes_k_of_its_own():
+    """A plate that turns freely has no stress but the centrifugal; K found there is the grid's."""
+    crack = {"name": "c", **inner((0, 10), (15.3, 10), start="edge", contact={"law": "ignore"})}
+    for spin, doubtful in ((0.02, True), (0.0, False)):
+        body = {"name": "b", "material": "soft", "shape": rectangle(0, 0, 30, 20)}
+        bodies = [body | {"angular_velocity": spin}]
+        model, state, scratch = build_deck(PLATE, bodies=bodies, cracks=[crack])
+        advance(model, state, scratch, 20)
+        (row,) = sample_tips(model, state, scratch)
+        assert ("the solid turns by" in row["status"]) is doubtful

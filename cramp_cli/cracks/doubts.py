@@ -1,0 +1,86 @@
+"""When J and K of a tip cannot be trusted, told from what else is known around it.
+
+Numbers that contradict each other, strain that is not elastic, a solid that turns fast. What is
+nothing beside the strain energy around the tip is noise, and no doubt.
+"""
+
+from math import isnan, pi, sqrt
+
+import numpy as np
+
+from cramp_cli.materials.law import confined_modulus
+from cramp_cli.state.measures import from_history
+from cramp_cli.state.particles import DISSIPATED, Particles
+
+AROUND = 5.0  # cells around a tip that are looked at
+DIFFER = 0.2  # share by which two numbers for one J may differ
+NOISE = 0.01  # share of the strain energy around the tip that is no J
+ROUND_OFF = 1e-12  # a strain that is none
+TAKEN = 0.01  # share of the work around the tip that plastic and viscous strain may have taken
+TURNING = 0.2  # share of K that the turning of the solid may make by itself
+
+
+def doubts(model, site, row, moving: bool) -> list[str]:
+    """Return what speaks against the J and K in a row; moving: the tip runs.
+
+    J of a running tip has the kinetic energy in it and is not that of K.
+    """
+    origin = site.cloud.particles.origin
+    near = np.hypot(*(origin - site.frame.origin).T) < AROUND * model.lattice.width
+    particles = Particles(*(array[near] for array in site.cloud.particles))
+    found = _of_law(particles, site)
+    if moving:
+        return [*found, "doubtful: J is negative"] if row["J"] < 0.0 else found
+    if "closed" in row["status"] or not near.any():
+        return found
+    width, stiffness = model.lattice.width, site.hooke.stiffness
+    energy = float(particles.work.mean()) + ROUND_OFF**2 * stiffness
+    noise = NOISE * AROUND * width * energy
+    return [
+        *found,
+        *_contradictions(row, stiffness, noise),
+        *_of_spin(particles, site, row, width, noise),
+    ]
+
+
+def _contradictions(row, stiffness, noise) -> list[str]:
+    """J that is not that of K: no crack has such a field. A contour far from a domain."""
+    J, of_K = row["J"], (row["K_I"] ** 2 + row["K_II"] ** 2) / stiffness
+    texts = {
+        "doubtful: J and that of K differ by {:.0f} %": (J, of_K),
+        "contour doubtful: {:.0f} % from the domain": (J, row["J_contour"]),
+    }
+    found = []
+    for text, (one, other) in texts.items():
+        off, larger = abs(one - other), max(abs(one), abs(other))
+        if off > max(DIFFER * larger, noise):
+            found.append(text.format(100.0 * off / larger))
+    return found
+
+
+def _of_spin(particles, site, row, width, noise) -> list[str]:
+    """A node at a border has the velocity of a place inside the solid, half a cell away.
+
+    In a solid that turns the difference strains the cells at the faces of a crack like an impact:
+    stress up to rho c |spin| h over a length h. K measured around tips in freely turning plates is
+    0.1 to 0.8 times that.
+    """
+    spin = 0.5 * float((particles.L[:, 2] - particles.L[:, 1]).mean())
+    impedance = sqrt(site.block.density * confined_modulus(site.block.law))
+    made = impedance * abs(spin) * width * sqrt(pi * width)
+    K = sqrt(row["K_I"] ** 2 + row["K_II"] ** 2)
+    if not made > TURNING * K or made * made / site.hooke.stiffness <= noise:
+        return []
+    return [f"doubtful: the solid turns by {spin:.3g} rad/s, which alone may make K = {made:.2g}"]
+
+
+def _of_law(particles, site) -> list[str]:
+    """What the law at the tip takes from J and K, which belong to an elastic solid."""
+    taken = float(from_history(particles, DISSIPATED).sum())
+    work, found = float(particles.work.sum()), []
+    if isnan(site.hooke.shear):
+        found.append("K invalid: the stiffness of the material depends on direction or time")
+    if taken > TAKEN * work:
+        text = "doubtful: plastic or viscous strain took {:.0f} % of the work around the tip"
+        found.append(text.format(100.0 * taken / work))
+    return found
