@@ -20,6 +20,7 @@ from cramp_cli.transfer.sums import locate_particles
 HEALTH_EVERY = 20  # steps
 SETTLED = 50  # steps before the energy balance is judged: the first loads meet a body at rest
 DUES = ("history_due", "tips_due", "frame_due")
+MOST_REMARKS = 20  # of single particles
 COMPILING = 2.0  # s; a first step that takes longer has compiled kernels
 
 
@@ -178,7 +179,7 @@ class _Run:
         self.tips_due = Due(deck.fracture.every, model.dt)
         self.frame_due = Due(deck.output.every, model.dt)
         self.tips, self.written = [], set()
-        self.told = set()
+        self.told, self.remarks_told = set(), 0
         list_cracks(model, state, self.scratch)
         locate_particles(model, state, self.scratch)
         find_rows(model, state, self.scratch)
@@ -194,6 +195,7 @@ class _Run:
 
     def after_step(self) -> None:
         """Look after the solution and write what is due."""
+        self._tell_remarks()
         if self.state.step % HEALTH_EVERY == 0:
             check_health(self.model, self.state)
             self._tell_strange_rows()
@@ -222,6 +224,7 @@ class _Run:
             "tips": self.tips,
             "written": sorted(self.written),
             "told": sorted(self.told),
+            "remarks_told": self.remarks_told,
         }
 
     def recall(self, remembered) -> None:
@@ -230,6 +233,7 @@ class _Run:
         for name, count in remembered["due"].items():
             getattr(self, name).count = count
         self.tips, self.told = remembered["tips"], set(remembered["told"])
+        self.remarks_told = remembered["remarks_told"]
         self.written = {tuple(key) for key in remembered["written"]}
 
     def first_step_took(self, seconds: float) -> float:
@@ -301,6 +305,16 @@ class _Run:
         if crowded:
             self._tell("crowded", f"{crowded} particle-node pairs cross more than two cracks")
 
+    def _tell_remarks(self) -> None:
+        """Pass on what the step has to say, but not without end."""
+        remarks, told = self.scratch.remarks, self.remarks_told
+        for text in remarks[: max(MOST_REMARKS - told, 0)]:
+            self.reporter.message("warning", text)
+        self.remarks_told += len(remarks)
+        if told < MOST_REMARKS <= self.remarks_told:
+            self.reporter.message("warning", "there are more of these; they are not told")
+        remarks.clear()
+
     def _tell(self, what, text) -> None:
         if what not in self.told:
             self.told.add(what)
@@ -311,6 +325,7 @@ class _Run:
 def _points(particles, names) -> tuple:
     """Return positions and named fields of all particles, in the order of their numbers."""
     order = np.argsort(particles.id)
+    order = order[particles.mass[order] > 0.0]  # the others have been deleted
     fields = {name: FIELDS[name](particles)[order] for name in names}
     return particles.position[order], fields | {"body": particles.body[order]}
 

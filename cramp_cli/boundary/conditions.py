@@ -23,6 +23,7 @@ from cramp_cli.boundary.velocity import (
     hold_momentum,
     hold_zero,
 )
+from cramp_cli.state.particles import DELETED
 from cramp_cli.transfer.on_grid import add_gravity
 from cramp_cli.transfer.to_grid import sum_particle_force
 
@@ -53,6 +54,12 @@ class ParticleForce:
     load: np.ndarray  # (n, dim) N
     shape: Any
     curve: Any
+
+    def where(self, index) -> tuple:
+        """Return places and loads of those that are left; index: the place of each number."""
+        chosen = index[self.particles]
+        left = chosen != DELETED
+        return chosen[left], self.load[left]
 
 
 @dataclass(frozen=True)
@@ -235,8 +242,8 @@ def add_loads(model, scratch, time) -> None:
     conditions, strides, grid = model.conditions, model.strides, scratch.grid
     for f in conditions.forces:
         factor = f.curve.value(time)
-        chosen = scratch.index[f.particles]
-        sum_particle_force(grid, chosen, f.load, scratch.stencil, f.shape, strides, factor)
+        chosen, load = f.where(scratch.index)
+        sum_particle_force(grid, chosen, load, scratch.stencil, f.shape, strides, factor)
     for t in conditions.tractions:
         places = (scratch.index, t.faces, t.shape, strides)
         add_traction(grid, scratch.stencil, *places, t.curve.value(time))

@@ -7,6 +7,7 @@ import numpy as np
 from cramp_cli.numerics.kernel import kernel
 from cramp_cli.numerics.tensor import dot, plus, times, vector
 from cramp_cli.shapes.shape import offsets, point_weights
+from cramp_cli.state.particles import DELETED
 from cramp_cli.transfer.rows import add
 
 
@@ -30,6 +31,8 @@ def add_traction(grid, stencil, index, faces, shape, strides, factor):
     steps = offsets(strides, shape)
     for c in range(len(particle)):
         p = index[particle[c]]
+        if p == DELETED:
+            continue
         S = point_weights(plus(vector(strides, local, p), 1.0, vector(strides, corner, c)), shape)
         f = times(vector(strides, load, c), factor)
         first, line = base[p], near[p]
@@ -51,6 +54,8 @@ def traction_power(grid, stencil, index, faces, shape, strides):
     power = 0.0
     for c in range(len(particle)):
         p = index[particle[c]]
+        if p == DELETED:
+            continue
         S = point_weights(plus(vector(strides, local, p), 1.0, vector(strides, corner, c)), shape)
         f = vector(strides, load, c)
         first, line = base[p], near[p]

@@ -51,6 +51,7 @@ def build(deck: Deck) -> tuple[Model, State]:
         crack_names=tuple(crack.name for crack in deck.cracks),
         contact=_contact(deck),
         conditions=conditions,
+        leaving=deck.solver.leaving,
         tip_nodes=TIPS[deck.solver.tips],
         fracture=Fracture(
             methods=settings.methods,

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from cramp_cli.state.particles import Particles
+from cramp_cli.state.particles import DELETED, Particles
 
 
 class Origins(NamedTuple):
@@ -49,6 +49,7 @@ def cloud_around(model, state, scratch, place, radius: float) -> Cloud:
         slice(origins.first[n + cells[0, 0]], origins.first[n + cells[1, 0] + 1]) for n in lines
     ]
     chosen = np.sort(scratch.index[np.concatenate([origins.number[run] for run in runs])])
+    chosen = chosen[chosen != DELETED]
     edges = [np.searchsorted(chosen, (b.lo, b.hi)).tolist() for b in model.blocks]
     parts = tuple((b, lo, hi) for b, (lo, hi) in zip(model.blocks, edges, strict=True) if lo < hi)
     return Cloud(Particles(*(array[chosen] for array in state.particles)), parts)

@@ -46,7 +46,9 @@ class Entry(Section):
     tip: str | None = Field(None, description="in cracks.csv: the tip, as in `notch end`")
     curve: ReferenceCurve | None = Field(None, description="what the column is compared with")
     value: float | None = Field(None, description="what this program gave when it was frozen")
-    rtol: float = Field(1e-5, ge=0, description="how near a later version comes, relative")
+    rtol: float = Field(
+        1e-5, ge=0, description="how near a later version comes, relative to `value` or `share_of`"
+    )
     atol: float = Field(0.0, ge=0, description="how near at least, in the column's unit")
     reference: float | None = Field(None, description="the number of theory or paper")
     within: float | None = Field(None, gt=0, description="how far from it is right")

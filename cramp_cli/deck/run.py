@@ -83,6 +83,11 @@ class SolverSection(Section):
     damping: DampingSection = Field(default_factory=DampingSection, description="damping")
     cfl: Number = Field(0.5, gt=0, le=1, description="share of the longest stable time step")
     dt: Time | None = Field(None, gt=0, description="upper limit of the time step")
+    leaving: Literal["error", "delete", "clamp"] = Field(
+        "error",
+        description="particles that leave the grid: end the run, are deleted, or are held at its "
+        "border; the log names them",
+    )
     energy_error: EnergySection = Field(
         default_factory=EnergySection, description="how far the energy balance may be off"
     )

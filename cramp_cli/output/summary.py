@@ -2,12 +2,14 @@
 
 import io
 from math import isfinite, nan
+from textwrap import fill
 from typing import NamedTuple
 
 from cramp_cli.output.tables import WIDTH, duration, number
 
 BY_DOMAIN = ("x", "y", "J", "K_I", "K_II")
 BY_CONTOUR = ("J_contour", "K_I_contour", "K_II_contour")
+LONG = 12  # letters of a status that a table has room for
 
 
 class Summary(NamedTuple):
@@ -40,7 +42,13 @@ def tips_text(tips: list[dict]) -> str:
     page = io.StringIO()
     console = Console(file=page, width=WIDTH, no_color=True, force_terminal=False, markup=False)
     console.print(_table(tips))
-    return "\n".join(line.rstrip() for line in page.getvalue().splitlines())
+    lines = [line.rstrip() for line in page.getvalue().splitlines()]
+    return "\n".join([*lines, *(_status(tip) for tip in tips if len(tip["status"]) > LONG)])
+
+
+def _status(tip: dict) -> str:
+    """Return what a table has no room for: why the numbers of a tip can not be trusted."""
+    return fill(f"{_name(tip)}: {tip['status']}", WIDTH, subsequent_indent="  ")
 
 
 def _table(tips: list[dict]):
@@ -51,15 +59,17 @@ def _table(tips: list[dict]):
     table.add_column("tip", overflow="fold", max_width=16)
     for heading in ("x\nm", "y\nm", "J\nJ/m^2", "K_I\nPa*m^0.5", "K_II\nPa*m^0.5"):
         table.add_column(heading, justify="right", no_wrap=True)
-    table.add_column("status", overflow="fold")
+    table.add_column("status", no_wrap=True)
     for tip in tips:
-        name = f"{tip.get('crack', '')} {tip.get('tip', '')}".strip()
-        table.add_row(
-            name, *_numbers(tip, "x", "y", "J", "K_I", "K_II"), str(tip.get("status", ""))
-        )
+        status = tip["status"] if len(tip["status"]) <= LONG else "see below"
+        table.add_row(_name(tip), *_numbers(tip, "x", "y", "J", "K_I", "K_II"), status)
         if isfinite(tip.get("J_contour", nan)):
             table.add_row("  by contour", "", "", *_numbers(tip, *BY_CONTOUR), "")
     return table
+
+
+def _name(tip: dict) -> str:
+    return f"{tip.get('crack', '')} {tip.get('tip', '')}".strip()
 
 
 def _numbers(tip: dict, *names: str) -> list[str]:

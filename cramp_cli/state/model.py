@@ -74,6 +74,7 @@ class Model:
     conditions: Any  # boundary conditions and loads
     fracture: Any = None  # how J and K are evaluated
     propagation: Any = None  # when, where to and how fast cracks grow; None: they do not
+    leaving: str = "error"  # what particles that leave the grid are: transfer/leaving.py
     tip_nodes: TipNodes | None = None  # None: cut at once, by the line test alone (the paper)
     strides: tuple = field(init=False)
 
@@ -92,7 +93,7 @@ class State:
     paths: Paths
     books: Books
     reactions: np.ndarray  # (named boundaries, dim) of the last step (N)
-    bands: np.ndarray  # (blocks, bands + 1) first particle of each band
+    bands: np.ndarray  # (blocks, bands + 1) first particle of each band; those deleted come last
     growth: Growth
 
 
@@ -111,6 +112,7 @@ class Scratch:
     index: np.ndarray | None = None  # (n,) where the particle of each number is
     origins: Any = None  # numbers of the particles by the cells in which they started
     held: list | None = None  # rows held by each velocity condition, and their number
+    remarks: list = field(default_factory=list)  # what a user should be told of this step
     free: list | None = None  # nodes of each symmetry plane that lie on its crack
     share: np.ndarray | None = None  # (nodes,) of the sums of a node that are the body's own
 

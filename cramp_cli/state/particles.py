@@ -9,6 +9,8 @@ DISSIPATED = 0  # energy per initial volume that plastic and viscous strain have
 PLASTIC_STRAIN = 1  # equivalent plastic strain; zero for laws without one
 OWN = 2  # first column of the law's own
 
+DELETED = -1  # place of a particle that is no more; it has no mass and lies behind the last band
+
 
 class Particles(NamedTuple):
     """State of all particles; first axis = particle, `dim` = 2 or 3.

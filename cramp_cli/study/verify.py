@@ -123,7 +123,7 @@ def _finding(expectation: Expectation, path, entry: Entry, rows: Columns) -> Fin
     else:
         value = float(rows[entry.column][-1])
         error = None if entry.reference is None else abs(value - entry.reference)
-    allowed = entry.atol + entry.rtol * abs(entry.value or 0.0)
+    allowed = entry.atol + entry.rtol * max(abs(entry.value or 0.0), entry.share_of or 0.0)
     return Finding(
         case=expectation.name,
         what=", ".join(filter(None, (entry.column, entry.tip))),

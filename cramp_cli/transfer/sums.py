@@ -3,44 +3,33 @@
 import numpy as np
 
 from cramp_cli.state.bands import band_axis, band_starts, share_out, sorted_by_cell
-from cramp_cli.state.failure import NumericalFailure
-from cramp_cli.state.health import CAUSES, describe
+from cramp_cli.state.particles import DELETED
 from cramp_cli.transfer import to_grid, to_particles
+from cramp_cli.transfer.leaving import let_leave
 
 
 def locate_particles(model, state, scratch) -> None:
-    """Find the nodes that every particle sees; NumericalFailure when one has left the grid.
+    """Find the nodes that every particle sees; `let_leave` those that have left the grid.
 
     The cracks must have been listed (cracks/fields.py): a particle near one is marked.
     """
-    if _locate(model, state, scratch):
+    gone, strayed = _locate(model, state, scratch)
+    if gone >= 0:
+        let_leave(model, state, scratch, gone)
+    if strayed or gone >= 0:
         sort_particles(model, state, scratch)
         _locate(model, state, scratch)
 
 
-def _locate(model, state, scratch) -> bool:
-    """Return whether a particle has strayed from its band."""
+def _locate(model, state, scratch) -> tuple[int, bool]:
+    """Return a particle that has left the grid or -1, and whether one has strayed from its band."""
     lattice, segments, report = model.lattice, scratch.segments, scratch.report
     grid = (lattice.lower, model.strides, lattice.nodes, lattice.width)
     cracks = (segments.head, segments.zone, band_axis(lattice.cells))
     for number, b in enumerate(model.blocks):
         args = (scratch.stencil, state.particles.position, b.shape, *grid, *cracks, report[number])
         scratch.team.run(to_particles.locate, args, scratch.shared[number].shares)
-    gone = report[:, :, 0].max()
-    if gone >= 0:
-        raise _failure(model, state, int(gone))
-    return bool(report[:, :, 1].any())
-
-
-def _failure(model, state, p: int) -> NumericalFailure:
-    """Return what to say of a particle that has no nodes."""
-    text = f"step {state.step}, t = {state.time:.6g} s: {describe(model, state, p)}"
-    if not np.isfinite(state.particles.position[p]).all():
-        return NumericalFailure(f"{text} has a position that is no number.\n{CAUSES}")
-    return NumericalFailure(
-        f"{text} leaves the grid.\nMake the grid larger (grid.lower, grid.upper or grid.margin), "
-        "or look for what throws the body out."
-    )
+    return int(report[:, :, 0].max()), bool(report[:, :, 1].any())
 
 
 def sort_particles(model, state, scratch) -> None:
@@ -48,9 +37,12 @@ def sort_particles(model, state, scratch) -> None:
     particles, lattice = state.particles, model.lattice
     for number, b in enumerate(model.blocks):
         order = sorted_by_cell(lattice, particles.position[b.lo : b.hi])
+        deleted = particles.mass[b.lo : b.hi][order] == 0.0
+        order = np.concatenate([order[~deleted], order[deleted]])
         for array in particles:
             array[b.lo : b.hi] = array[b.lo : b.hi][order]
-        state.bands[number] = b.lo + band_starts(lattice, particles.position[b.lo : b.hi])
+        end = b.hi - np.count_nonzero(deleted)
+        state.bands[number] = b.lo + band_starts(lattice, particles.position[b.lo : end])
     share_particles(state, scratch)
 
 
@@ -58,6 +50,7 @@ def share_particles(state, scratch) -> None:
     """Share the particles out to the threads as the bands of the state say."""
     scratch.shared = [share_out(starts, scratch.team.size) for starts in state.bands]
     scratch.index = np.argsort(state.particles.id)
+    scratch.index[state.particles.id[state.particles.mass == 0.0]] = DELETED
 
 
 def _scatter(scratch, kernel, number, *args) -> None:
@@ -100,7 +93,8 @@ def move(model, state, scratch) -> None:
     With a second extrapolation the new momenta are in `grid.saved` afterwards.
     """
     particles, conditions, again = state.particles, model.conditions, model.scheme.again
-    before = [particles.position[scratch.index[f.particles]] for f in conditions.forces]
+    loaded = [f.where(scratch.index) for f in conditions.forces]
+    before = [particles.position[chosen] for chosen, _ in loaded]
     weighed = _weighed(particles) if conditions.gravity else 0.0
     if again:
         to_grid.clear(scratch.grid.saved, scratch.row_count)
@@ -109,9 +103,9 @@ def move(model, state, scratch) -> None:
         rest = (model.damping, model.dt, again, scratch.per_band)
         _scatter(scratch, to_particles.move_particles, number, *args, *rest)
         state.books.damping[0] += float(scratch.per_band.sum())
-    for f, x in zip(conditions.forces, before, strict=True):
-        way = particles.position[scratch.index[f.particles]] - x
-        state.books.external[0] += f.curve.value(state.time) * float(np.sum(f.load * way))
+    for f, (chosen, load), x in zip(conditions.forces, loaded, before, strict=True):
+        way = particles.position[chosen] - x
+        state.books.external[0] += f.curve.value(state.time) * float(np.sum(load * way))
     if conditions.gravity:
         g = conditions.body_force(state.time, len(model.strides))
         state.books.external[0] += float((_weighed(particles) - weighed) @ g)

@@ -30,7 +30,7 @@ from cramp_cli.output.exits import FolderError
 from cramp_cli.output.fields import read_frames
 from cramp_cli.output.look import describe, facts
 from cramp_cli.output.stop import Signs
-from cramp_cli.simulation import DUES, Books, _Run
+from cramp_cli.simulation import DUES, MOST_REMARKS, Books, _Run
 from cramp_cli.state.failure import NumericalFailure
 from cramp_cli.state.measures import FIELDS
 
@@ -284,6 +284,23 @@ def test_3_a_particle_that_leaves_the_grid_ends_the_run(here):
     assert done.returncode == 6
     assert re.search(r"step 1, .* particle \d+ of glass at .* leaves the grid", done.stderr)
     assert len(list((here / "plate.run/failure").glob("step_*.h5"))) == 1
+
+
+@pytest.mark.parametrize("leaving", ["delete", "clamp"])
+def test_3_a_particle_that_leaves_the_grid_may_be_lost_but_not_in_silence(here, leaving):
+    """The plate is thrown at the border; the run ends, the log has names, and pieces are equal."""
+    settings = ["bodies.0.velocity=[0, 2 km/s]", f"solver.leaving={leaving}"]
+    options = {"overrides": [*settings, "solver.energy_error.stop=10", "output.every=2 us"]}
+    whole = run_in_pieces(here / "plate.yaml", here / "whole", **options)
+    pieces = run_in_pieces(here / "plate.yaml", here / "pieces", (60, 90), **options)
+    assert differences(whole, pieces) == []
+    said = re.findall(r"step \d+, .* particle (\d+) of glass at .* has left", log_of(whole))
+    left = [len(frame.points) for frame in read_frames(whole / "particles.h5")]
+    assert len(said) == MOST_REMARKS < left[0] - left[-1] or leaving == "clamp"
+
+
+def log_of(run):
+    return (run / "run.log").read_text(encoding="utf-8")
 
 
 def test_3_time_steps_without_end_are_a_mistake_of_the_deck(here):

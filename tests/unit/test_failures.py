@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
-from support import build_deck, locate, read
+from support import advance, build_deck, locate, read
 
 from cramp_cli.simulation import SETTLED, Books
 from cramp_cli.state.failure import NumericalFailure
+from cramp_cli.state.particles import DELETED
 
 BLOCK = """
 cramp: 1
@@ -29,6 +30,35 @@ def test_a_particle_without_nodes_is_named(place, words, others):
         locate(model, state, scratch)
     assert words in str(caught.value)
     assert others not in str(caught.value)
+
+
+def flying(**solver):
+    """Return a model of a block that flies to the right, after it has met the border."""
+    sections = {"grid": {"cell": 1, "lower": [-2, -2], "upper": [11, 8]}}
+    model, state, scratch = build_deck(BLOCK, solver=solver, **sections)
+    state.particles.velocity[:] = 0.0
+    state.particles.velocity[:, 0] = 0.2
+    advance(model, state, scratch, int(8.0 / 0.2 / model.dt))
+    return state, scratch, Books(state, read(BLOCK).solver).start
+
+
+def test_particles_that_leave_are_deleted_and_named():
+    state, scratch, energy = flying(leaving="delete")
+    alive = state.particles.mass > 0.0
+    assert 0 < alive.sum() < len(alive)
+    assert state.particles.position[alive, 0].max() < 11.0
+    assert len(scratch.remarks) == (~alive).sum()
+    assert "is deleted" in scratch.remarks[0]
+    before = 0.5 * 8.0 * 6.0 * 0.2**2
+    np.testing.assert_allclose(energy - state.books.external[0], before, rtol=1e-3)
+    assert (scratch.index[state.particles.id[~alive]] == DELETED).all()
+
+
+def test_particles_that_leave_are_held_and_named():
+    state, scratch, _ = flying(leaving="clamp")
+    assert (state.particles.mass > 0.0).all()
+    assert 10.0 < state.particles.position[:, 0].max() < 11.0
+    assert "is held at its border" in scratch.remarks[0]
 
 
 class Ears:
