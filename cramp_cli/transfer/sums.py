@@ -75,13 +75,10 @@ def sum_internal_force(model, state, scratch) -> None:
         _scatter(scratch, to_grid.sum_internal_force, number, *particles, *place)
 
 
-def strain(model, state, scratch, share, *, last) -> None:
-    """Strain all particles for a share of the step with the velocities of the grid.
-
-    last: the last strain of this step
-    """
+def strain(model, state, scratch, share) -> None:
+    """Strain all particles for a share of the step with the velocities of the grid."""
     particles = (state.particles, scratch.grid, scratch.stencil)
-    rest = (model.strides, model.lattice.width, share * model.dt, last)
+    rest = (model.strides, model.lattice.width, share * model.dt)
     for number, b in enumerate(model.blocks):
         args = (*particles, b.law, model.geometry, b.shape, *rest)
         scratch.team.run(to_particles.update_stress, args, scratch.shared[number].shares)

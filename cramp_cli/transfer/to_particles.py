@@ -38,6 +38,8 @@ from cramp_cli.transfer.nodes import give, take, take_both
 from cramp_cli.transfer.rows import add, entry_gradient, first_line
 from cramp_cli.transfer.update import moved
 
+AT_A_TIME = 512  # particles
+
 
 @kernel
 def locate(stencil, position, shape, lower, strides, nodes, width, head, zone, axis, report, parts):
@@ -139,34 +141,34 @@ def _move_one(particles, p, update, u, a, damping, dt):
 
 
 @particle_kernel
-def update_stress(particles, grid, stencil, law, geometry, shape, strides, width, dt, last, parts):
+def update_stress(particles, grid, stencil, law, geometry, shape, strides, width, dt, parts):
     """Strain particles for the time dt with the velocities of the grid; update their stress.
 
-    last: the last strain of the step, of which particles keep the velocity gradient
+    First the velocity gradients of some particles, then their stresses: two short loops are faster
+    than a long one as long as what they share is in the cache.
     """
     for part in range(len(parts)):
-        run = (parts[part, 0], parts[part, 1])
-        what = (law, geometry, shape, strides, width, dt, last)
-        _strain_far(particles, grid.velocity, stencil, *what, run)
-        _strain_near(particles, grid.velocity, stencil, *what, run)
+        for first in range(parts[part, 0], parts[part, 1], AT_A_TIME):
+            run = (first, min(first + AT_A_TIME, parts[part, 1]))
+            _gradients_far(particles.L, grid.velocity, stencil, shape, strides, 1.0 / width, run)
+            _gradients_near(particles.L, grid.velocity, stencil, shape, strides, 1.0 / width, run)
+            _strain(particles, law, geometry, strides, dt, run)
 
 
 @particle_kernel
-def _strain_far(particles, velocity, stencil, law, geometry, shape, strides, width, dt, last, run):
+def _gradients_far(L, velocity, stencil, shape, strides, per_cell, run):
     base, local, near = stencil.base, stencil.local, stencil.near
-    per_cell = 1.0 / width
     for number in range(run[0], run[1]):
         p = uint64(number)
         if near[p] < 0:
             along = factors(vector(strides, local, p), shape)
             _, slopes = take_both(along, strides, base[p], velocity)
-            gradient = scaled(from_columns(slopes), per_cell)
-            strain_one(particles, p, law, geometry, gradient, dt, last)
+            store(scaled(from_columns(slopes), per_cell), L, p, 0)
 
 
 @particle_kernel
-def _strain_near(particles, velocity, stencil, law, geometry, shape, strides, width, dt, last, run):
-    table, per_cell = stencil.table, 1.0 / width
+def _gradients_near(L, velocity, stencil, shape, strides, per_cell, run):
+    table = stencil.table
     for line in range(first_line(stencil, run[0]), first_line(stencil, run[1])):
         p = stencil.listed[line]
         place = vector(strides, stencil.local, p)
@@ -174,14 +176,20 @@ def _strain_near(particles, velocity, stencil, law, geometry, shape, strides, wi
         for e in range(stencil.entries[line]):
             g = entry_gradient(stencil, strides, line, e, S, G)
             gradient = add_outer(vector(strides, velocity, table[line, e]), g, gradient)
-        strain_one(particles, p, law, geometry, scaled(gradient, per_cell), dt, last)
+        store(scaled(gradient, per_cell), L, p, 0)
 
 
 @particle_kernel
-def strain_one(particles, p, law, geometry, gradient, dt, last):
-    """Strain a particle with the velocity gradient for the time dt."""
-    F, stress, L, stretch = particles.F, particles.stress, particles.L, particles.stretch
-    dU = scaled(gradient, dt)
+def _strain(particles, law, geometry, strides, dt, run):
+    for number in range(run[0], run[1]):
+        strain_one(particles, uint64(number), law, geometry, strides, dt)
+
+
+@particle_kernel
+def strain_one(particles, p, law, geometry, strides, dt):
+    """Strain a particle with its velocity gradient for the time dt; strides: as many as axes."""
+    F, stress, stretch = particles.F, particles.stress, particles.stretch
+    dU = scaled(matrix(zero_matrix(strides), particles.L, p), dt)
     turned = turn(dU, six(dU, stress, p, 0))
     after = product(increment(dU), matrix(dU, F, p))
     step = Straining(turned, dU, after, stretch[p], dt)
@@ -191,5 +199,3 @@ def strain_one(particles, p, law, geometry, gradient, dt, last):
     store(past, particles.history, p, 0)
     store(kept(dU, new), stress, p, 0)
     store(after, F, p, 0)
-    if last:
-        store(gradient, L, p, 0)

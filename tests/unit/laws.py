@@ -48,6 +48,7 @@ LAWS = METALS | RUBBERS | {
     "drucker_prager": SOIL,
 }  # fmt: skip
 STRAIN, STRESS = PlaneStrain(1.0), PlaneStress(1.0)
+AXES = (1, 1)  # a plane
 PLAIN = getattr(strain_one, "py_func", strain_one)
 
 
@@ -60,8 +61,8 @@ def particle_of(law, F=(1.0, 0.0, 0.0, 1.0)):
 
 def strain(particle, law, geometry, dU, dt=1.0):
     """Strain a particle by the step dU (2 x 2) of the displacement gradient."""
-    gradient = tuple(float(x) / dt for x in np.ravel(dU))
-    PLAIN(particle, 0, law, geometry, gradient, dt, True)
+    particle.L[0] = np.ravel(dU) / dt
+    PLAIN(particle, 0, law, geometry, AXES, dt)
 
 
 def stress_of(particle):

@@ -38,7 +38,7 @@ def strain_particle(particles, geometry, L, dt, share=1.0):
     stencil.local[0] = particles.position[0] / LATTICE.width
     grid, _ = make_grid(4, 2, 0)
     grid.velocity[:] = LATTICE.node_positions() @ np.array(L).T
-    motion = (LATTICE.strides, LATTICE.width, share * dt, True, ALONE)
+    motion = (LATTICE.strides, LATTICE.width, share * dt, ALONE)
     update_stress(particles, grid, stencil, GLASS, geometry, shape, *motion)
 
 
