@@ -40,14 +40,15 @@ def cloud_around(model, state, scratch, place, radius: float) -> Cloud:
 
     place: (dim,) in the undeformed body
     """
-    lattice, origins = model.lattice, scratch.origins
+    lattice, origins, (_, *strides) = model.lattice, scratch.origins, model.strides
     corners = (np.asarray(place) + [[-radius], [radius]] - lattice.lower) / lattice.width
     cells = np.clip(np.floor(corners).astype(int), 0, np.array(lattice.cells) - 1)
-    others = [range(low, high + 1) for low, high in cells.T[1:]]
-    lines = [np.dot(line, lattice.strides[1:]) for line in product(*others)]
-    runs = [
-        slice(origins.first[n + cells[0, 0]], origins.first[n + cells[1, 0] + 1]) for n in lines
+    (west, east), *others = cells.T.tolist()
+    planes = [
+        range(s * low, s * (high + 1), s) for s, (low, high) in zip(strides, others, strict=True)
     ]
+    lines = [sum(line) for line in product(*planes)]
+    runs = [slice(origins.first[n + west], origins.first[n + east + 1]) for n in lines]
     chosen = np.sort(scratch.index[np.concatenate([origins.number[run] for run in runs])])
     chosen = chosen[chosen != DELETED]
     edges = [np.searchsorted(chosen, (b.lo, b.hi)).tolist() for b in model.blocks]

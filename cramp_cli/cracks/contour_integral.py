@@ -183,10 +183,12 @@ class _Walk:
     def line_integral(self):
         """Return the line integrals of q_x and q_y, counter-clockwise."""
         corners = self._corners()
-        total = np.zeros(2)
-        for here, there in zip(corners, corners[1:] + corners[:1], strict=True):
-            total += self._edge(here, there)
-        return float(total[0]), float(total[1])
+        here = [(at, self._own(at)) for at in corners]
+        Jx, Jy = 0.0, 0.0
+        for one, next_one in zip(here, here[1:] + here[:1], strict=True):
+            qx, qy = self._edge(*one, *next_one)
+            Jx, Jy = Jx + qx, Jy + qy
+        return Jx, Jy
 
     def trouble(self) -> str:
         """Return why the integral can not be trusted, or an empty text."""
@@ -210,20 +212,19 @@ class _Walk:
             + [(i, j + h - k) for k in range(h)]
         )
 
-    def _edge(self, here, there):
-        """Integrate from one node to the next, on both sides of the crack if it passes between."""
+    def _edge(self, here, a, there, b):
+        """Integrate from a node to the next (fields a, b), on both sides of a crack between."""
         width = self.model.lattice.width
         normal = ((there[1] - here[1]), -(there[0] - here[0]))
-        a, b = self._own(here), self._own(there)
-        hit = self._crossing(here, there)
-        if hit is None:
-            return 0.5 * width * (_integrand(a, normal) + _integrand(b, normal))
+        f = self._crossing(here, there)
+        if f is None:
+            return _trapezoid(width, normal, a, b)
         self.crossings += 1
-        f = hit
         before = (1 - f) * a + f * self._across(there)
         after = (1 - f) * self._across(here) + f * b
-        first = 0.5 * f * width * (_integrand(a, normal) + _integrand(before, normal))
-        return first + 0.5 * (1 - f) * width * (_integrand(after, normal) + _integrand(b, normal))
+        first = _trapezoid(f * width, normal, a, before)
+        second = _trapezoid((1 - f) * width, normal, after, b)
+        return first[0] + second[0], first[1] + second[1]
 
     def _place(self, at, row):
         """Return where the sums of a row of the node `at` stand."""
@@ -233,8 +234,9 @@ class _Walk:
 
     def _mean(self, at, *rows):
         """Return the means over all particles in some rows of a node; zero where nobody is."""
-        total = sum(self.sums[self._place(at, row)] for row in rows if row >= 0)
-        return total / total[0] if np.any(total) else np.zeros(self.sums.shape[1])
+        places = [self._place(at, row) for row in rows if row >= 0]
+        total = self.sums[places].sum(axis=0)
+        return total / total[0] if total[0] else total
 
     def _own(self, at):
         """Fields of the side on which the node lies; beside a tip two rows stand for it."""
@@ -286,15 +288,19 @@ def _fraction(p, n, segment):
     return min(1.0, max(0.0, above(p) / (above(p) - above(n))))
 
 
-def _integrand(f, normal):
+def _trapezoid(length, normal, a, b) -> tuple[float, float]:
+    """Return the integrals of q_x and q_y over a piece of the contour with fields at both ends."""
+    (ax, ay), (bx, by) = _integrand(a, normal), _integrand(b, normal)
+    return 0.5 * length * (ax + bx), 0.5 * length * (ay + by)
+
+
+def _integrand(f, normal) -> tuple[float, float]:
     """Return q_x and q_y from the fields at a point: (W + K) n - T . du/dx."""
-    _, uxx, uxy, uyx, uyy, sxx, syy, sxy, W, K = f
+    _, uxx, uxy, uyx, uyy, sxx, syy, sxy, W, K = f.tolist()
     tx, ty = sxx * normal[0] + sxy * normal[1], sxy * normal[0] + syy * normal[1]
-    return np.array(
-        [
-            (W + K) * normal[0] - (tx * uxx + ty * uyx),
-            (W + K) * normal[1] - (tx * uxy + ty * uyy),
-        ]
+    return (
+        (W + K) * normal[0] - (tx * uxx + ty * uyx),
+        (W + K) * normal[1] - (tx * uxy + ty * uyy),
     )
 
 

@@ -1,5 +1,7 @@
 """The background grid: equal cells between a lower corner and an upper one."""
 
+from itertools import accumulate
+from operator import mul
 from typing import NamedTuple
 
 import numpy as np
@@ -25,7 +27,7 @@ class Lattice(NamedTuple):
     @property
     def strides(self) -> tuple:
         """Steps in node number to the next node along each axis."""
-        return tuple(int(s) for s in np.cumprod((1, *self.nodes[:-1])))
+        return tuple(accumulate(self.nodes[:-1], mul, initial=1))
 
     def node_positions(self) -> np.ndarray:
         """Return the positions of all nodes, shape (nodes, dimension), in metres."""
