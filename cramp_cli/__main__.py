@@ -1,5 +1,6 @@
 """The program `cramp`, also as ``python -m cramp_cli``: obey the words, end with the right code."""
 
+import gc
 import sys
 
 import typer
@@ -10,6 +11,7 @@ from cramp_cli.streams import mend_streams, mute_stdout
 
 def main(words: list[str] | None = None) -> int:
     """Run the command line; return the exit code."""
+    gc.set_threshold(100_000)  # a start makes next to no garbage; looking for it takes a tenth
     settings = Settings()
     mend_streams()
     try:
