@@ -24,7 +24,7 @@ def list_cracks(model, state, scratch) -> None:
     lattice = model.lattice
     growth = 1 if model.tip_nodes is None else 2
     beyond = EXTENSION * lattice.width * smooth_cracks(model)
-    zone = 2 * support(model.blocks[0].shape) + growth - 1
+    zone = growth + support(model.blocks[0].shape)  # who is listed sees nodes that others see
     grid = (lattice.cells, lattice.width, lattice.lower, model.strides)
     while not list_segments(scratch.segments, state.paths, *grid, growth, zone, beyond):
         wanted = 2 * int(scratch.segments.used[2])
