@@ -7,7 +7,7 @@ READY := $(VENV)/.ready
 JOBS ?= 2
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
-.PHONY: help demo test verify soak lint format docs clean
+.PHONY: help demo test verify soak lint format docs html clean
 .DEFAULT_GOAL := help
 
 help:  ## what can be made
@@ -47,11 +47,14 @@ format: $(READY)  ## put the sources into shape
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 
+html: $(READY)  ## the pages of docs/ for a browser: docs/_build/html/index.html
+	$(BIN)/python -m sphinx -E -W --keep-going -q docs docs/_build/html
+
 docs: $(READY)  ## write docs/decks.md and the JSON schema of a deck for editors
 	$(BIN)/python -c "from cramp_cli.deck import reference as r; print(r.deck_reference(), end='')" \
 	  > docs/decks.md
 	$(BIN)/cramp schema > docs/deck.schema.json
 
 clean:  ## remove what these targets made
-	rm -rf $(VENV) dcb.run build dist .pytest_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) dcb.run build dist docs/_build .pytest_cache .ruff_cache .hypothesis
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -2,9 +2,12 @@
 
 import ast
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
+import yaml
 
 import cramp_cli
 from cramp_cli.deck.deck import DeckError, read_deck
@@ -146,3 +149,15 @@ def test_the_first_mistakes_of_a_user_are_told_as_shown(tmp_path):
         read_deck(deck)
     told = str(caught.value).replace(f"{tmp_path}/", "")
     assert told in read(DOCS / "start.md")
+
+
+def test_the_pages_become_html_without_a_warning(tmp_path):
+    words = ["-E", "-W", "--keep-going", "-q", str(DOCS), str(tmp_path)]
+    done = subprocess.run([sys.executable, "-m", "sphinx", *words], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "index.html").exists()
+
+
+def test_the_citation_names_this_version():
+    told = yaml.safe_load(read(ROOT / "CITATION.cff"))
+    assert told["version"] == cramp_cli.__version__
