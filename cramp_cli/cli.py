@@ -52,6 +52,7 @@ class Picture(StrEnum):
     path = "path"
     field = "field"
     animation = "animation"
+    movie = "movie"
 
 
 class Ink(StrEnum):
@@ -409,7 +410,7 @@ def plot(
     path: Run,
     pictures: Annotated[
         list[Picture] | None,
-        typer.Argument(help="Which ones [all but animation].", metavar="PICTURE"),
+        typer.Argument(help="Which ones [all that stand still].", metavar="PICTURE"),
     ] = None,
     columns: Annotated[
         list[str] | None,
@@ -433,7 +434,8 @@ def plot(
 ):
     """Draw J and K, energies, cracks and fields of a run.
 
-    Pictures: tips, energy, path, field, animation (GIF). Prints the files.
+    Pictures: tips, energy, path, field, animation (GIF), movie (MP4, by ffmpeg). Prints the
+    files.
     """
     from cramp_cli.study.plot import PlotOptions, View, plot, seconds
 

@@ -92,13 +92,14 @@ def collect(
     study: Study,
     output: Folder = None,
     table: Annotated[
-        Path | None, typer.Option("--to", help="The table [<study>.sweep/results.csv].")
+        Path | None,
+        typer.Option("--to", help="The table, .csv or .parquet [<study>.sweep/results.csv]."),
     ] = None,
     wall_time: Annotated[
         bool, typer.Option("--wall-time", help="With the seconds each case took.")
     ] = False,
 ):
-    """Write a CSV file with a row per case."""
+    """Write a table with a row per case, as CSV or Parquet."""
     from cramp_cli.study.manage import collect_study
 
     print(collect_study(study, output, table, wall_time))

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from cramp_cli.deck.sweep import Reduction, Study
-from cramp_cli.output.atomic import write_text
+from cramp_cli.output.atomic import replaced, write_text
 from cramp_cli.output.exits import FolderError
 from cramp_cli.output.history import CRACK_COLUMNS, GROWTH_COLUMNS, HISTORY_COLUMNS
 from cramp_cli.schema.mistake import DeckError
@@ -128,10 +128,31 @@ def _columns(rows: Sequence[Row]) -> list[str]:
 
 
 def write_results(path: Path, rows: Sequence[Row]) -> Path:
-    """Write rows into a CSV file."""
+    """Write rows into a CSV file, or into Parquet if the file is called so.
+
+    Raises FolderError when the package for Parquet is missing.
+    """
     path.parent.mkdir(parents=True, exist_ok=True)
-    write_text(path, to_csv(rows))
+    if path.suffix == ".parquet":
+        _write_parquet(path, rows)
+    else:
+        write_text(path, to_csv(rows))
     return path
+
+
+def _write_parquet(path: Path, rows: Sequence[Row]) -> None:
+    """Columns of numbers are numbers; one with words in it holds texts, as in the CSV file."""
+    try:
+        import pyarrow
+        from pyarrow.parquet import write_table
+    except ImportError:
+        raise FolderError(f"{path}: needs pyarrow; pip install 'cramp[parquet]'") from None
+    columns = {name: [row.get(name) for row in rows] for name in _columns(rows)}
+    for name, values in columns.items():
+        if any(isinstance(value, str | list | tuple) for value in values):
+            columns[name] = [None if value is None else _cell(value) for value in values]
+    with replaced(path) as beside:
+        write_table(pyarrow.table(columns), beside)
 
 
 def cases_table(cases: Sequence[Case]) -> str:

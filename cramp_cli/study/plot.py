@@ -18,7 +18,9 @@ KINDS = {
     "path": "cracks.h5",
     "field": "particles.h5",
     "animation": "particles.h5",
+    "movie": "particles.h5",
 }  # kind of picture: the file it needs
+MOVING = {"animation": ".gif", "movie": ".mp4"}
 USUAL = ("tips", "energy", "path", "field")
 
 
@@ -81,7 +83,7 @@ def _draw(plt, run: Path, target: Path, kind: str, options: PlotOptions) -> Path
         return save(draw_tips(plt, run, options.references), path)
     if kind == "energy":
         return save(draw_energy(plt, run), path)
-    if kind == "animation":
-        return animate(plt, run, options.view, path.with_suffix(".gif"))
+    if kind in MOVING:
+        return animate(plt, run, options.view, path.with_suffix(MOVING[kind]))
     draw = {"path": draw_path, "field": draw_field}[kind]
     return save(draw(plt, run, options.view), path)

@@ -44,9 +44,12 @@ def draw_field(plt, run: Path, view: View):
 
 
 def animate(plt, run: Path, view: View, path: Path) -> Path:
-    """Write an animated GIF of a quantity on the particles, all frames with the same colours."""
-    from matplotlib.animation import PillowWriter
+    """Write a quantity on the particles over time, all frames with the same colours.
 
+    path: a .gif or an .mp4, for which the program ffmpeg is needed
+    Raises FolderError when it is not there, or the run holds no frame.
+    """
+    writer = _movie_writer(path)
     frames = list(read_frames(run / "particles.h5"))
     if not frames:
         raise FolderError(f"{run / 'particles.h5'}: holds no frame yet")
@@ -55,12 +58,23 @@ def animate(plt, run: Path, view: View, path: Path) -> Path:
     stage.show(frames[0], None)
     stage.figure.canvas.draw()  # finds room for all labels once; frames must not jump
     stage.figure.set_layout_engine("none")
-    writer = PillowWriter(fps=FRAMES_PER_SECOND)
     with writer.saving(stage.figure, str(path), dpi=110):
         for frame in frames:
             stage.show(frame, _cracks_beside(run, frame))
             writer.grab_frame()
     return path
+
+
+def _movie_writer(path: Path):
+    from matplotlib.animation import FFMpegWriter, PillowWriter
+
+    if path.suffix == ".gif":
+        return PillowWriter(fps=FRAMES_PER_SECOND)
+    if not FFMpegWriter.isAvailable():
+        raise FolderError(f"{path}: needs the program ffmpeg; `cramp plot ... animation` is a GIF")
+    even = "pad=ceil(iw/2)*2:ceil(ih/2)*2"  # most players want pictures of even size
+    form = ["-pix_fmt", "yuv420p", "-vf", even]
+    return FFMpegWriter(fps=FRAMES_PER_SECOND, extra_args=form)
 
 
 class _Stage:

@@ -152,6 +152,28 @@ def test_plot_writes_what_a_run_has(run, tmp_path):
     ]
 
 
+def test_a_movie_is_made_by_ffmpeg_or_says_that_it_is_missing(run, tmp_path, monkeypatch):
+    """A stand-in for ffmpeg that keeps what it is sent: all frames, of the size it was told."""
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(FolderError, match="needs the program ffmpeg"):
+        plot(run, tmp_path / "p", PlotOptions(kinds=["movie"]))
+    stand_in = tmp_path / "ffmpeg"
+    stand_in.write_text(f"#!{sys.executable}\n{STAND_IN}")
+    stand_in.chmod(0o755)
+    (made,) = plot(run, tmp_path / "p", PlotOptions(kinds=["movie"]))
+    size, sent = made.read_text().split()
+    wide, high = map(int, size.split("x"))
+    assert int(sent) == 3 * 4 * wide * high
+
+
+STAND_IN = """
+import sys
+words = sys.argv[1:]
+sent = len(sys.stdin.buffer.read())
+open(words[-1], "w").write(words[words.index("-s") + 1] + " " + str(sent))
+"""
+
+
 def test_a_picture_without_its_file_is_refused(run, tmp_path):
     bare = write_run(tmp_path / "bare.run")
     (bare / "particles.h5").unlink()

@@ -391,6 +391,21 @@ def test_the_page_of_a_sweep_holds_every_case(study):
     assert "<td><b>" not in page
 
 
+def test_the_table_as_parquet_has_the_same_numbers(study, tmp_path):
+    parquet = pytest.importorskip("pyarrow.parquet")
+    path = study(HEAD + "  - {type: list, cases: [{thickness: 1 mm}, {title: b}]}\n" + COLLECT)
+    opened = open_study(path)
+    write_run(opened.folder.run(opened.cases[0].name), K_I=4e5)
+    table = parquet.read_table(collect_study(path, None, tmp_path / "all.parquet"))
+    with collect_study(path, None, None).open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert table.column_names == list(rows[0])
+    told = [
+        {name: "" if x is None else str(x) for name, x in row.items()} for row in table.to_pylist()
+    ]
+    assert told == rows
+
+
 def test_an_unknown_tip_is_named(study):
     path = study(FOUR + "collect: [{column: K_I, tip: notch start}]\n")
     opened = open_study(path)
