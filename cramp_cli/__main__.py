@@ -5,7 +5,8 @@ import sys
 
 import typer
 
-from cramp_cli.cli import Settings, app
+from cramp_cli.cli.app import app
+from cramp_cli.cli.words import Settings
 from cramp_cli.streams import mend_streams, mute_stdout
 
 

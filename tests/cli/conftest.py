@@ -12,6 +12,7 @@ from cramp_cli.deck.size import Size
 from cramp_cli.output.summary import Summary
 
 TIP = {"crack": "notch", "tip": "end", "x": 0.0153, "y": 0.0, "J": 1.5, "K_I": 3e5, "K_II": 0.0}
+TIP["status"] = "ok"
 
 
 @pytest.fixture
@@ -58,7 +59,7 @@ def solver(monkeypatch):
     def simulate(deck, model, state, outputs, reporter, **more):
         reporter.start(deck.solver.end_time, deck.title, {"particles": 3})
         outputs.history({"step": 1, "time": 1e-6, "energy_error": 0.0})
-        outputs.tips([{"step": 1, "time": 1e-6, **TIP, "status": "ok"}])
+        outputs.tips([{"step": 1, "time": 1e-6, **TIP}])
         outputs.particle_frame(1, 1e-6, np.zeros((3, 2)), {"mass": np.ones(3)})
         if stub.error is not None:
             raise stub.error

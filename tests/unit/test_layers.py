@@ -24,7 +24,6 @@ LAYERS = (
     ("simulation",),
     ("study",),
     ("commands", "streams"),
-    ("cli_sweep",),
     ("cli",),
     ("__main__",),
 )
