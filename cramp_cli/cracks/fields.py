@@ -12,6 +12,7 @@ from cramp_cli.cracks.rows import (
     list_particles_near_cracks,
 )
 from cramp_cli.cracks.tip_nodes import EXTENSION, cut_along_cracks, mark_tip_nodes
+from cramp_cli.cracks.tip_shares import sum_sides
 from cramp_cli.shapes.shape import support
 from cramp_cli.state.grid import make_grid
 from cramp_cli.state.stencil import make_lists
@@ -54,6 +55,8 @@ def _rows_fit(scratch, state, model) -> bool:
     if tips is not None:
         grid = (lattice.cells, lattice.width, lattice.lower, strides)
         mark_tip_nodes(rows, state.paths, segments, smooth_cracks(model), *grid)
+        particles = (state.particles.position, state.particles.mass)
+        sum_sides(rows, stencil, state.paths, *particles, shape, strides, lattice.width, *tips)
     place = (strides, lattice.nodes, lattice.width, lattice.lower)
     ramp = (0.0, 1.0) if tips is None else (tips.centre, tips.ramp)
     position, paths = state.particles.position, state.paths
