@@ -48,6 +48,22 @@ def sum_sides(rows, stencil, paths, position, mass, shape, strides, width, centr
 
 
 @kernel
+def see_image(rows, crack, on, outside, inside):
+    """Add what the nodes around a symmetry plane see of the image, across the crack on the plane.
+
+    outside, inside: nodes on both sides of the plane, each the image of the other
+    """
+    seen, split = rows.tip_seen, rows.tip_split
+    for i in range(len(on)):
+        if rows.tip[on[i]] // 2 == crack:
+            seen[on[i], 0] = seen[on[i], 1] = seen[on[i], 0] + seen[on[i], 1]
+        if rows.tip[inside[i]] // 2 == crack and rows.tip[outside[i]] // 2 == crack:
+            seen[inside[i], 1] = seen[outside[i], 1]
+            seen[outside[i], 0] = seen[inside[i], 0]
+            split[inside[i]] = split[outside[i]] = split[inside[i]] or split[outside[i]]
+
+
+@kernel
 def _side_of(paths, tip, x, y, width):
     """Return the side of a crack, carried on straight at its tip, on which a place lies."""
     point, crack = paths.point, tip // 2
