@@ -11,6 +11,7 @@ from cramp_cli.boundary.symmetry import (
     find_open_nodes,
     reflect,
     reflect_mass,
+    reflect_on,
     stop_normal,
     sum_outside,
 )
@@ -154,6 +155,7 @@ def reflect_mass_and_momentum(conditions, scratch) -> None:
         m = plane.mirror
         reflect_mass(grid.mass, rows, m.crack, m.outside, m.inside)
         double_on(grid.mass.reshape(-1, 1), rows, m.crack, m.on, free)
+        reflect_on(grid.mass.reshape(-1, 1), rows, -1, m.crack, m.on, free, True)
         _reflect(m, free, rows, grid.momentum, add=True)
 
 
@@ -178,13 +180,14 @@ def reflect_forces(conditions, scratch, state) -> None:
     force = scratch.grid.force
     for plane, free in zip(conditions.mirrors, scratch.free, strict=True):
         m = plane.mirror
-        outside = sum_outside(force, m.axis, m.outside)
+        outside = sum_outside(force, scratch.rows, m.axis, m.crack, m.outside, m.inside, m.on)
         taken = _reflect(m, free, scratch.rows, force, add=True)
         state.reactions[plane.boundary, m.axis] -= taken + 2.0 * outside
 
 
 def _reflect(m: Mirror, free, rows, field, *, add: bool) -> float:
     reflect(field, rows, m.axis, m.crack, m.outside, m.inside, add)
+    reflect_on(field, rows, m.axis, m.crack, m.on, free, add)
     taken = stop_normal(field, rows, m.axis, m.crack, m.on, free)
     if add:
         double_on(field, rows, m.crack, m.on, free)

@@ -6,7 +6,8 @@ the row inside, and the row outside becomes the image of the row inside: with th
 repeats the whole one to round-off.
 
 A crack that lies on the plane separates body and image: rows reached through it are free surface,
-and so are the nodes of the plane that lie on it.
+and so are the nodes of the plane that lie on it. Beside a smooth tip body and image share nodes in
+part: a node has a row for either of them, and the one is the image of the other.
 """
 
 from typing import NamedTuple
@@ -14,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from cramp_cli.cracks.crossing import ON_CRACK, crosses
+from cramp_cli.cracks.rows import find_row, row_across
 from cramp_cli.numerics.kernel import kernel
 
 
@@ -30,24 +32,31 @@ class Mirror(NamedTuple):
 
 @kernel
 def image_row(rows, nodes, row, image, crack):
-    """Return the row of node `image` that belongs to the same side of all cracks as `row`.
+    """Return the row of node `image` that is the image of `row`, or -1.
 
-    returns -1 where there is none or where `row` is reached through the crack on the plane
+    It belongs to the same side of all cracks, but to the other side of the crack on the plane; such
+    rows there are only where a smooth tip lets body and image share a node.
     """
     if row < nodes:
         return image
     a, b = rows.crack[row - nodes, 0], rows.crack[row - nodes, 1]
-    if crack >= 0 and crack in (a, b):
+    first, second = rows.side[row - nodes, 0], rows.side[row - nodes, 1]
+    first, second = (-first if a == crack else first), (-second if b == crack else second)
+    return find_row(rows, image, a, first, b, second if b >= 0 else 0)
+
+
+@kernel
+def image_on_plane(rows, row, crack):
+    """Return the row that is the image of an extra row of a node on the plane, or -1.
+
+    Both belong to the same node, on either side of the crack that lies on the plane.
+    """
+    if crack < 0:
         return -1
-    other = rows.first[image]
-    while other >= 0:
-        o = other - nodes
-        if rows.crack[o, 0] == a and rows.crack[o, 1] == b:
-            same = rows.side[o, 0] == rows.side[row - nodes, 0]
-            if same and rows.side[o, 1] == rows.side[row - nodes, 1]:
-                return other
-        other = rows.next[other - nodes]
-    return -1
+    e = row - len(rows.first)
+    if rows.crack[e, 0] == crack:
+        return row_across(rows, e, 0)
+    return row_across(rows, e, 1) if rows.crack[e, 1] == crack else -1
 
 
 @kernel
@@ -68,6 +77,26 @@ def reflect(field, rows, axis, crack, outside, inside, add):
                         field[image, d] += sign * field[row, d]
                     field[row, d] = sign * field[image, d]
             row = rows.first[row] if row < nodes else rows.next[row - nodes]
+
+
+@kernel
+def reflect_on(field, rows, axis, crack, on, free, add):
+    """Make the two rows of a node on the plane that body and image share images of each other.
+
+    field: (rows, k); axis: component that changes its sign, -1 for none; with `add`, sum both first
+    """
+    nodes = len(rows.first)
+    for i in range(len(on)):
+        row = rows.first[on[i]]
+        while row >= 0:
+            image = image_on_plane(rows, row, crack) if free[i] else -1
+            if image >= 0 and rows.tip_split[on[i]]:
+                for d in range(field.shape[1]):
+                    sign = -1.0 if d == axis else 1.0
+                    if add:
+                        field[row, d] += sign * field[image, d]
+                    field[image, d] = sign * field[row, d]
+            row = rows.next[row - nodes]
 
 
 @kernel
@@ -122,7 +151,7 @@ def find_open_nodes(free, rows, on, mirror_axis, crack, place, ends, down, owner
                 )  # fmt: skip
                 if hit != 0 or back != 0:
                     odd = not odd
-        free[i] = odd and rows.tip[on[i]] // 2 != crack
+        free[i] = rows.tip_split[on[i]] if rows.tip[on[i]] // 2 == crack else odd
 
 
 @kernel
@@ -147,9 +176,26 @@ def stop_normal(field, rows, axis, crack, on, free):
 
 
 @kernel
-def sum_outside(force, axis, outside):
-    """Return the sum of the normal components in the nodes outside."""
-    total = 0.0
+def sum_outside(force, rows, axis, crack, outside, inside, on):
+    """Return the sum of the normal components in the rows that are the image's.
+
+    These are the nodes outside, and where body and image share nodes the rows across the crack.
+    """
+    total, nodes = 0.0, len(rows.first)
     for i in range(len(outside)):
         total += force[outside[i], axis]
+    for i in range(len(inside)):
+        row = rows.first[inside[i]]
+        while row >= 0:
+            if image_on_plane(rows, row, crack) >= 0:
+                total += force[row, axis]
+            row = rows.next[row - nodes]
+    for i in range(len(on)):
+        row = rows.first[on[i]]
+        while row >= 0:
+            image = image_on_plane(rows, row, crack)
+            if image >= 0 and rows.tip_split[on[i]]:
+                body = rows.tip_side[inside[i]] == rows.side[row - nodes, 0]
+                total += force[image if body else row, axis]
+            row = rows.next[row - nodes]
     return total

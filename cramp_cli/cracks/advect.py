@@ -21,11 +21,11 @@ def side_normal(point, k, first, last):
 
 @kernel
 def surface_rows(rows, segments, crack, side, node, cell, qx, qy, nx, ny, tolerance):
-    """Return the rows of a node for one side of a crack at the point q: cut and whole, or -1.
+    """Return the rows of a node for one side of a crack at the point q, and for the other, or -1.
 
-    Where rows of the node are told by this crack they decide: the row of the side, and the one
-    without the crack, which counts beside a tip only. Without such rows the line from q to the node
-    does.
+    Where rows of the node are told by this crack they decide: the row of the side, else the one
+    without the crack. Without such rows the line from q to the node does. The other side counts
+    beside a tip only.
     """
     a, side_a, _, b, side_b, _, _ = crossed_cracks(segments, cell, qx, qy, nx, ny, tolerance)
     other, other_side = (b, side_b) if a == crack else (a, side_a)
@@ -45,10 +45,19 @@ def surface_rows(rows, segments, crack, side, node, cell, qx, qy, nx, ny, tolera
         mine = find_row(rows, node, crack, side, other, other_side)
     else:
         mine = find_row(rows, node, other, other_side, crack, side)
-    whole = find_row(rows, node, other, other_side, -1, 0)
-    if mine < 0 and not beside_tip:
-        return whole, -1
-    return mine, whole if beside_tip else -1
+    if mine < 0:
+        mine = find_row(rows, node, other, other_side, -1, 0)
+    if not beside_tip:
+        return mine, -1
+    if other < 0:
+        facing = find_row(rows, node, crack, -side, -1, 0)
+    elif crack < other:
+        facing = find_row(rows, node, crack, -side, other, other_side)
+    else:
+        facing = find_row(rows, node, other, other_side, crack, -side)
+    if facing < 0:
+        facing = find_row(rows, node, other, other_side, -1, 0)
+    return mine, facing if facing != mine else -1
 
 
 @kernel
@@ -69,14 +78,20 @@ def surface_motion(grid, rows, segments, crack, side, cut, q, x, cells, width, l
         for i in range(2):
             node = (i0 + i) * strides[0] + (j0 + j) * strides[1]
             nx, ny = lower[0] + width * (i0 + i), lower[1] + width * (j0 + j)
-            mine, whole = surface_rows(
+            mine, facing = surface_rows(
                 rows, segments, crack, side, node, cell, q[0], q[1], nx, ny, ON_CRACK * width
             )
             S = max(0.0, 1.0 - abs(rx - i0 - i)) * max(0.0, 1.0 - abs(ry - j0 - j))
-            for row, share in ((mine, cut if whole >= 0 else 1.0), (whole, 1.0 - cut)):
-                if row < 0 or mass[row] <= 0.0:
+            near = mass[mine] if mine >= 0 else 0.0
+            far = mass[facing] if facing >= 0 else 0.0
+            if near + far <= 0.0:
+                continue
+            # as a particle there: the share of the side, and of the mean of both sides
+            part, both = near / (near + far), S * (near + (1.0 - cut) * far)
+            for row, share in ((mine, cut + (1.0 - cut) * part), (facing, (1.0 - cut) * (1.0 - part))):
+                if row < 0 or share == 0.0:
                     continue
-                w = S * share * mass[row]
+                w = both * share
                 total += w
                 vx += w * velocity[row, 0]
                 vy += w * velocity[row, 1]

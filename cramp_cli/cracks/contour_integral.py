@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from cramp_cli.cracks.crossing import ON_CRACK, crosses
-from cramp_cli.cracks.rows import crossed_row, find_row
+from cramp_cli.cracks.rows import crossed_row
 from cramp_cli.materials.law import same_law
 from cramp_cli.numerics.kernel import kernel
 from cramp_cli.numerics.tensor import matrix, product, rotation_of, vector, zero_matrix
@@ -232,20 +232,18 @@ class _Walk:
             return at[0] - self.box.i + (at[1] - self.box.j) * self.box.wide
         return self.box.wide * self.box.high + row - self.nodes
 
-    def _mean(self, at, *rows):
-        """Return the means over all particles in some rows of a node; zero where nobody is."""
-        places = [self._place(at, row) for row in rows if row >= 0]
-        total = self.sums[places].sum(axis=0)
+    def _mean(self, at, row):
+        """Return the means over all particles in a row of a node; zero where nobody is."""
+        if row < 0:
+            return np.zeros(self.sums.shape[1])
+        total = self.sums[self._place(at, row)]
         return total / total[0] if total[0] else total
 
     def _own(self, at):
-        """Fields of the side on which the node lies; beside a tip two rows stand for it."""
-        rows, node = self.scratch.rows, at[0] + at[1] * self.model.strides[1]
+        """Fields of the side on which the node lies."""
+        node = at[0] + at[1] * self.model.strides[1]
         self._look_for_body(at, node)
-        if rows.tip[node] < 0:
-            return self._mean(at, node)
-        cut = find_row(rows, node, rows.tip[node] // 2, rows.tip_side[node], -1, 0)
-        return self._mean(at, node, cut)
+        return self._mean(at, node)
 
     def _look_for_body(self, at, node):
         """Count a node that sees less than a full cell."""
@@ -258,10 +256,7 @@ class _Walk:
     def _across(self, at):
         """Fields of the other side of the crack at a node; zero where nobody is."""
         rows, node = self.scratch.rows, at[0] + at[1] * self.model.strides[1]
-        if rows.tip[node] // 2 != self.crack:
-            return self._mean(at, crossed_row(rows, node, self.crack))
-        cut = find_row(rows, node, self.crack, -rows.tip_side[node], -1, 0)
-        return self._mean(at, node, cut)
+        return self._mean(at, crossed_row(rows, node, self.crack))
 
     def _crossing(self, here, there):
         """Return how far along the edge the crack crosses it, or None."""

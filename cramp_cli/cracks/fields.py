@@ -12,6 +12,7 @@ from cramp_cli.cracks.rows import (
     list_particles_near_cracks,
 )
 from cramp_cli.cracks.tip_nodes import EXTENSION, cut_along_cracks, mark_tip_nodes
+from cramp_cli.cracks.tip_shares import see_image, sum_sides
 from cramp_cli.shapes.shape import support
 from cramp_cli.state.grid import make_grid
 from cramp_cli.state.stencil import make_lists
@@ -52,8 +53,7 @@ def _rows_fit(scratch, state, model) -> bool:
         return False
     forget_rows(rows)
     if tips is not None:
-        grid = (lattice.cells, lattice.width, lattice.lower, strides)
-        mark_tip_nodes(rows, state.paths, segments, smooth_cracks(model), *grid)
+        _look_around_tips(model, state, scratch)
     place = (strides, lattice.nodes, lattice.width, lattice.lower)
     ramp = (0.0, 1.0) if tips is None else (tips.centre, tips.ramp)
     position, paths = state.particles.position, state.paths
@@ -64,6 +64,18 @@ def _rows_fit(scratch, state, model) -> bool:
         )
         return False
     return True
+
+
+def _look_around_tips(model, state, scratch) -> None:
+    """Find the nodes beside every tip, and what they see on both sides of its crack."""
+    lattice, rows, particles = model.lattice, scratch.rows, state.particles
+    grid = (lattice.cells, lattice.width, lattice.lower, model.strides)
+    mark_tip_nodes(rows, state.paths, scratch.segments, smooth_cracks(model), *grid)
+    place = (particles.position, particles.mass, model.blocks[0].shape, model.strides, lattice.width)
+    sum_sides(rows, scratch.stencil, state.paths, *place, *model.tip_nodes)
+    for m in (plane.mirror for plane in model.conditions.mirrors):
+        if m.crack >= 0:
+            see_image(rows, m.crack, m.on, m.outside, m.inside)
 
 
 def smooth_cracks(model):

@@ -18,6 +18,7 @@ from cramp_cli.cracks.crossing import (
     off_crack,
 )
 from cramp_cli.cracks.tip_nodes import cut_share
+from cramp_cli.cracks.tip_shares import far_share
 from cramp_cli.numerics.kernel import inlined_kernel, kernel
 from cramp_cli.shapes.shape import node_steps, offsets
 from cramp_cli.state.stencil import AROUND, CLOSE, FAR
@@ -173,8 +174,6 @@ def _join_single(rows, node, a, side_a):
 @kernel
 def _is_wrong(rows, node, crack, side):
     """Return whether the rows of a node know this crack from the other side only."""
-    if rows.tip[node] // 2 == crack:
-        return False
     nodes = len(rows.first)
     row = rows.first[node]
     while row >= 0:
@@ -218,30 +217,36 @@ def give_row(stencil, rows, ends, line, k, node, crossed):
 
 @inlined_kernel
 def give_shares(stencil, rows, ends, line, k, node, crossed, cut, gx, gy):
-    """Give the pair of a particle and its node `k` beside a tip two rows: cut and whole."""
+    """Give the pair of a particle and its node `k` beside a tip its rows.
+
+    The cut share goes to the row of the side of the particle, the rest to the rows of both sides as
+    their masses are: what is whole moves with the mean of both sides (tip_shares.py).
+    """
     a, side_a, seg_a, b, side_b, seg_b, more = crossed
     rows.count[3] += more
-    c, side, seg = rows.tip[node] // 2, rows.tip_side[node], rows.tip_segment[node]
-    if a == c:
-        side, seg = side_a, seg_a
+    c, across = rows.tip[node] // 2, a == rows.tip[node] // 2
+    if across:
         a, side_a, seg_a, b, side_b, seg_b = b, side_b, seg_b, -1, 0, -1
     elif b == c:
-        side, seg = side_b, seg_b
+        across = True
         b, side_b, seg_b = -1, 0, -1
-    if cut < 1.0:
+    far = far_share(rows, node)
+    q, gain = (cut + (1.0 - cut) * far, 1.0 - far) if across else ((1.0 - cut) * far, -far)
+    if q < 1.0:
         row = join_row(rows, node, a, side_a, b, side_b)
         add_normal(rows, row, a, ends, seg_a)
         add_normal(rows, row, b, ends, seg_b)
-        add_entry(stencil, line, k, row, 1.0 - cut, -gx, -gy)
-    if cut > 0.0:
+        add_entry(stencil, line, k, row, 1.0 - q, -gain * gx, -gain * gy)
+    if q > 0.0:
         rows.count[3] += b >= 0
+        side, seg = -rows.tip_side[node], rows.tip_segment[node]
         if a < 0 or c < a:
             row = join_row(rows, node, c, side, a, side_a)
         else:
             row = join_row(rows, node, a, side_a, c, side)
         add_normal(rows, row, c, ends, seg)
         add_normal(rows, row, a, ends, seg_a)
-        add_entry(stencil, line, k, row, cut, gx, gy)
+        add_entry(stencil, line, k, row, q, gain * gx, gain * gy)
 
 
 @inlined_kernel

@@ -42,10 +42,10 @@ SCHEMES = {
 
 
 class TipNodes(NamedTuple):
-    """How nodes beside a tip pass from whole to cut."""
+    """How particles beside a tip pass from whole to cut (cracks/tip_nodes.py)."""
 
-    centre: float  # a node is half cut when the tip is this far behind it (cells)
-    ramp: float  # cells of the tip's way from whole to cut
+    centre: float  # where ahead of the tip the cut share begins to rise (cells)
+    ramp: float  # cells of the crack over which it rises
 
 
 class Books(NamedTuple):

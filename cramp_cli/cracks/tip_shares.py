@@ -1,0 +1,76 @@
+"""How much of what a node beside a tip sees lies on either side of the crack.
+
+A particle that a tip is passing is cut to a share q (tip_nodes.py). At a node beside the tip the
+sides have the velocities v_own and v_far, and the particle moves with
+
+    v = q v_side + (1 - q) v_mean,    v_mean = (1 - far) v_own + far v_far,
+
+where `far` is the share of the mass around the node that lies across the crack: v_mean is what the
+node would have without a crack. The jump of the velocity is q (v_own - v_far), and apart from it
+the node has its one velocity: no motion is left that the particles hardly feel. (A row of its own
+for what is whole has such motions: the tip would creep under a constant load.)
+"""
+
+from cramp_cli.cracks.crossing import ON_CRACK, double_area
+from cramp_cli.cracks.tip_nodes import FAR, along_crack, cut_share
+from cramp_cli.numerics.kernel import inlined_kernel, kernel
+from cramp_cli.numerics.tensor import vector
+from cramp_cli.shapes.shape import offsets, weights
+
+
+@inlined_kernel
+def far_share(rows, node):
+    """Return the share of the mass that a node sees across the crack; 0 where nothing is cut."""
+    own, far = rows.tip_seen[node, 0], rows.tip_seen[node, 1]
+    return far / (own + far) if rows.tip_split[node] and far > 0.0 else 0.0
+
+
+@kernel
+def sum_sides(rows, stencil, paths, position, mass, shape, strides, width, centre, ramp):
+    """Sum what every node beside a tip sees on both sides; mark the nodes that see a cut."""
+    steps = offsets(strides, shape)
+    for candidate in range(stencil.count[0]):
+        p = stencil.listed[candidate]
+        tip, known, side, cut = -1, -1, 0, 0.0
+        S = weights(vector(strides, stencil.local, p), shape)
+        for k in range(len(steps)):
+            node = stencil.base[p] + steps[k]
+            tip = rows.tip[node]
+            if tip < 0:
+                continue
+            if tip != known:
+                known = tip
+                x, y = position[p, 0], position[p, 1]
+                side = _side_of(paths, tip, x, y, width)
+                cut, _, _ = cut_share(paths, tip, x, y, shape.half, width, centre, ramp)
+            rows.tip_seen[node, 0 if side == rows.tip_side[node] else 1] += S[k] * mass[p]
+            rows.tip_split[node] = rows.tip_split[node] or cut > 0.0
+
+
+@kernel
+def see_image(rows, crack, on, outside, inside):
+    """Add what the nodes around a symmetry plane see of the image, across the crack on the plane.
+
+    outside, inside: nodes on both sides of the plane, each the image of the other
+    """
+    seen, split = rows.tip_seen, rows.tip_split
+    for i in range(len(on)):
+        if rows.tip[on[i]] // 2 == crack:
+            seen[on[i], 0] = seen[on[i], 1] = seen[on[i], 0] + seen[on[i], 1]
+        if rows.tip[inside[i]] // 2 == crack and rows.tip[outside[i]] // 2 == crack:
+            seen[inside[i], 1] = seen[outside[i], 1]
+            seen[outside[i], 0] = seen[inside[i], 0]
+            split[inside[i]] = split[outside[i]] = split[inside[i]] or split[outside[i]]
+
+
+@kernel
+def _side_of(paths, tip, x, y, width):
+    """Return the side of a crack, carried on straight at its tip, on which a place lies."""
+    point, crack = paths.point, tip // 2
+    first, last = paths.start[crack], paths.start[crack + 1] - 1
+    at = first if tip % 2 == 0 else last
+    _, _, segment, _, _ = along_crack(point, first, last, at, x, y, FAR * width)
+    k = first + segment
+    ax, ay, bx, by = point[k, 0], point[k, 1], point[k + 1, 0], point[k + 1, 1]
+    limit = ON_CRACK * width * (abs(bx - ax) + abs(by - ay))
+    return 1 if double_area(ax, ay, bx, by, x, y) > limit else -1
