@@ -258,7 +258,8 @@ class _Run:
     def _write(self, history_due, tips_due, frame_due) -> None:
         time = self.state.time
         if history_due(time) and self._first("history"):
-            self.outputs.history(self.books.row(self.state, self.model.dt) | self._reactions())
+            books = self.books.row(self.state, self.model.dt)
+            self.outputs.history(books | self._reactions() | self._contact_forces())
             self.books.judge(self.state, self.reporter)
         if self.model.crack_names and tips_due(time) and self._first("tips"):
             self.tips = sample_tips(self.model, self.state, self.scratch)
@@ -279,6 +280,14 @@ class _Run:
         return {
             f"reaction_{name}_{axis}": float(self.state.reactions[b, d])
             for b, name in enumerate(names)
+            for d, axis in enumerate("xy")
+        }
+
+    def _contact_forces(self) -> dict:
+        between = self.model.between_bodies
+        return {
+            f"contact_{name}_{axis}": float(self.state.contact_forces[g, d])
+            for g, name in enumerate(between.names if between else ())
             for d, axis in enumerate("xy")
         }
 

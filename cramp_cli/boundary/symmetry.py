@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from cramp_cli.cracks.crossing import ON_CRACK, crosses
+from cramp_cli.cracks.rows import find_row
 from cramp_cli.numerics.kernel import kernel
 
 
@@ -30,24 +31,17 @@ class Mirror(NamedTuple):
 
 @kernel
 def image_row(rows, nodes, row, image, crack):
-    """Return the row of node `image` that belongs to the same side of all cracks as `row`.
+    """Return the row of node `image` of the same body and side of all cracks as `row`.
 
     returns -1 where there is none or where `row` is reached through the crack on the plane
     """
     if row < nodes:
-        return image
-    a, b = rows.crack[row - nodes, 0], rows.crack[row - nodes, 1]
+        return find_row(rows, image, rows.lowest[row], -1, 0, -1, 0)
+    e = row - nodes
+    a, b = rows.crack[e, 0], rows.crack[e, 1]
     if crack >= 0 and crack in (a, b):
         return -1
-    other = rows.first[image]
-    while other >= 0:
-        o = other - nodes
-        if rows.crack[o, 0] == a and rows.crack[o, 1] == b:
-            same = rows.side[o, 0] == rows.side[row - nodes, 0]
-            if same and rows.side[o, 1] == rows.side[row - nodes, 1]:
-                return other
-        other = rows.next[other - nodes]
-    return -1
+    return find_row(rows, image, rows.group[e], a, rows.side[e, 0], b, rows.side[e, 1])
 
 
 @kernel

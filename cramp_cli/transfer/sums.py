@@ -66,18 +66,23 @@ def _scatter(scratch, kernel, number, *args) -> None:
         scratch.team.run(kernel, args, parts)
 
 
+def _solids(model):
+    """Yield number and block of all particles that are not of a rigid body."""
+    return ((number, b) for number, b in enumerate(model.blocks) if b.law is not None)
+
+
 def sum_mass_and_momentum(model, state, scratch) -> None:
     """Sum mass and momentum of all particles in their rows."""
     to_grid.clear_sums(scratch.grid, scratch.row_count)
     particles = (scratch.grid, state.particles, scratch.stencil)
-    for number, b in enumerate(model.blocks):
+    for number, b in _solids(model):
         _scatter(scratch, to_grid.sum_mass_and_momentum, number, *particles, b.shape, model.strides)
 
 
 def sum_internal_force(model, state, scratch) -> None:
     """Sum the forces of the stresses."""
     particles = (scratch.grid, state.particles, scratch.stencil)
-    for number, b in enumerate(model.blocks):
+    for number, b in _solids(model):
         place = (b.shape, model.strides, model.lattice.width)
         _scatter(scratch, to_grid.sum_internal_force, number, *particles, *place)
 
@@ -89,7 +94,7 @@ def strain(model, state, scratch, share, *, last) -> None:
     """
     particles = (state.particles, scratch.grid, scratch.stencil)
     rest = (model.strides, model.lattice.width, share * model.dt, last)
-    for number, b in enumerate(model.blocks):
+    for number, b in _solids(model):
         args = (*particles, b.law, model.geometry, b.shape, *rest)
         scratch.team.run(to_particles.update_stress, args, scratch.shared[number].shares)
 
@@ -104,7 +109,7 @@ def move(model, state, scratch) -> None:
     weighed = _weighed(particles) if conditions.gravity else 0.0
     if again:
         to_grid.clear(scratch.grid.saved, scratch.row_count)
-    for number, b in enumerate(model.blocks):
+    for number, b in _solids(model):
         args = (particles, scratch.grid, scratch.stencil, model.update, b.shape, model.strides)
         rest = (model.damping, model.dt, again, scratch.per_band)
         _scatter(scratch, to_particles.move_particles, number, *args, *rest)
@@ -120,7 +125,7 @@ def move(model, state, scratch) -> None:
 def smooth(model, state, scratch, target, field) -> None:
     """Add to `target` what a round trip to the particles makes of `field`; both (rows, dim)."""
     particles = (state.particles, scratch.stencil)
-    for number, b in enumerate(model.blocks):
+    for number, b in _solids(model):
         _scatter(scratch, to_grid.smooth, number, target, field, *particles, b.shape, model.strides)
 
 
