@@ -8,6 +8,7 @@ order; the others do not touch them.
 import numpy as np
 
 from cramp_cli.boundary.conditions import hold_increment, reflect_sum
+from cramp_cli.contact.bodies import share_increments
 from cramp_cli.cracks.contact import touch_increment
 from cramp_cli.transfer.on_grid import divide_by_mass, find_velocity
 from cramp_cli.transfer.sums import smooth
@@ -42,5 +43,6 @@ def _add_orders(model, state, scratch, increment) -> None:
         divide_by_mass(smoothed, grid.mass, len(smoothed), model.strides)
         increment -= smoothed
         hold_increment(model.conditions, scratch, increment)
+        share_increments(model, scratch, increment)
         touch_increment(increment, grid, scratch.rows, model.contact, model.strides)
         grid.velocity[: len(increment)] += increment

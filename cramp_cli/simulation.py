@@ -14,6 +14,7 @@ from cramp_cli.scratch import make_scratch
 from cramp_cli.state.failure import NumericalFailure
 from cramp_cli.state.health import check_health
 from cramp_cli.state.measures import FIELDS, momentum, sum_energies
+from cramp_cli.state.particles import is_deleted
 from cramp_cli.step import step
 from cramp_cli.transfer.sums import locate_particles
 
@@ -262,7 +263,8 @@ class _Run:
     def _write(self, history_due, tips_due, frame_due) -> None:
         time = self.state.time
         if history_due(time) and self._first("history"):
-            self.outputs.history(self.books.row(self.state, self.model.dt) | self._reactions())
+            books = self.books.row(self.state, self.model.dt)
+            self.outputs.history(books | self._reactions() | self._contact_forces())
             self.books.judge(self.state, self.reporter)
         if self.model.crack_names and tips_due(time) and self._first("tips"):
             self.tips = sample_tips(self.model, self.state, self.scratch)
@@ -283,6 +285,14 @@ class _Run:
         return {
             f"reaction_{name}_{axis}": float(self.state.reactions[b, d])
             for b, name in enumerate(names)
+            for d, axis in enumerate("xy")
+        }
+
+    def _contact_forces(self) -> dict:
+        between = self.model.between_bodies
+        return {
+            f"contact_{name}_{axis}": float(self.state.contact_forces[g, d])
+            for g, name in enumerate(between.names if between else ())
             for d, axis in enumerate("xy")
         }
 
@@ -325,7 +335,7 @@ class _Run:
 def _points(particles, names) -> tuple:
     """Return positions and named fields of all particles, in the order of their numbers."""
     order = np.argsort(particles.id)
-    order = order[particles.mass[order] > 0.0]  # the others have been deleted
+    order = order[~is_deleted(particles)[order]]
     fields = {name: FIELDS[name](particles)[order] for name in names}
     return particles.position[order], fields | {"body": particles.body[order]}
 

@@ -16,6 +16,7 @@ from cramp_cli.boundary.conditions import (
     reflect_sum,
     repeat_images,
 )
+from cramp_cli.contact.bodies import find_pairs, move_rigid_bodies, touch_bodies
 from cramp_cli.cracks.contact import FIRST, LAST, UPDATE, touch
 from cramp_cli.cracks.fields import find_openings, find_rows, list_cracks, move_paths
 from cramp_cli.grid_velocity import find_strain_velocity, find_update_velocity
@@ -31,8 +32,9 @@ def step(model, state, scratch, watch) -> None:
         list_cracks(model, state, scratch)
         sums.locate_particles(model, state, scratch)
 
-    with watch("2 on which side of the cracks"):
+    with watch("2 in which body, on which side of the cracks"):
         find_rows(model, state, scratch)
+        find_pairs(model, state, scratch)
         find_openings(model, state, scratch)
     grid, rows, count = scratch.grid, scratch.rows, scratch.row_count
     state.reactions[:] = 0.0
@@ -42,6 +44,7 @@ def step(model, state, scratch, watch) -> None:
         meet_rows(conditions, scratch, model.lattice.width)
         reflect_mass_and_momentum(conditions, scratch)
         grid.saved[:count] = grid.momentum[:count]
+        touch_bodies(model, state, scratch, FIRST)
         touch(grid, rows, laws, model.strides, dt, FIRST)
         repeat_images(conditions, scratch, grid.momentum, grid.saved)
         book_tractions(model, scratch, state, time, 0.5 * dt)
@@ -61,6 +64,7 @@ def step(model, state, scratch, watch) -> None:
     with watch("6 equation of motion in every velocity field"):
         hold_forces(conditions, scratch, state, time, dt)
         advance_momentum(grid, count, model.strides, dt)
+        touch_bodies(model, state, scratch, UPDATE)
         state.books.friction[0] += touch(grid, rows, laws, model.strides, dt, UPDATE)
         repeat_images(conditions, scratch, grid.momentum, grid.force)
         hold_after_contact(conditions, scratch, state, time, dt)
@@ -69,6 +73,7 @@ def step(model, state, scratch, watch) -> None:
     with watch("7 particles move"):
         find_update_velocity(model, state, scratch)
         sums.move(model, state, scratch)
+        move_rigid_bodies(model, state)
 
     with watch("8 cracks move"):
         if state.paths.crack_count:
@@ -82,6 +87,7 @@ def step(model, state, scratch, watch) -> None:
             grid.momentum[:count] = grid.saved[:count]  # of the moved particles
             find_openings(model, state, scratch)
             reflect_sum(conditions, scratch, grid.momentum)
+            touch_bodies(model, state, scratch, LAST)
             touch(grid, rows, laws, model.strides, dt, LAST)
             repeat_images(conditions, scratch, grid.momentum)
             hold_momenta(conditions, scratch, time)

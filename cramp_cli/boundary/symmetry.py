@@ -32,17 +32,18 @@ class Mirror(NamedTuple):
 
 @kernel
 def image_row(rows, nodes, row, image, crack):
-    """Return the row of node `image` that is the image of `row`, or -1.
+    """Return the row of node `image` that is the image of `row`, of the same body, or -1.
 
     It belongs to the same side of all cracks, but to the other side of the crack on the plane; such
     rows there are only where a smooth tip lets body and image share a node.
     """
     if row < nodes:
-        return image
-    a, b = rows.crack[row - nodes, 0], rows.crack[row - nodes, 1]
-    first, second = rows.side[row - nodes, 0], rows.side[row - nodes, 1]
+        return find_row(rows, image, rows.lowest[row], -1, 0, -1, 0)
+    e = row - nodes
+    a, b = rows.crack[e, 0], rows.crack[e, 1]
+    first, second = rows.side[e, 0], rows.side[e, 1]
     first, second = (-first if a == crack else first), (-second if b == crack else second)
-    return find_row(rows, image, a, first, b, second if b >= 0 else 0)
+    return find_row(rows, image, rows.group[e], a, first, b, second if b >= 0 else 0)
 
 
 @kernel

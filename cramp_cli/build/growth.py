@@ -21,7 +21,7 @@ def build_propagation(deck, blocks, geometry) -> Propagation | None:
     section = deck.propagation
     if section is None:
         return None
-    resistance = {b.material: _resistance(deck, b, geometry) for b in blocks}
+    resistance = {b.material: _resistance(deck, b, geometry) for b in blocks if b.law is not None}
     x, y = section.toward or (1.0, 0.0)
     chosen = section.cracks
     return Propagation(

@@ -3,9 +3,9 @@
 import numpy as np
 
 from cramp_cli.build.conditions import build_conditions
+from cramp_cli.build.contact import build_body_contact, build_crack_laws, build_groups
 from cramp_cli.build.growth import build_propagation
 from cramp_cli.build.laws import law_of
-from cramp_cli.cracks.contact import LAWS, ContactLaws
 from cramp_cli.cracks.tips import Fracture
 from cramp_cli.deck.deck import Deck, DeckError
 from cramp_cli.materials.geometry import PlaneStrain, PlaneStress
@@ -27,6 +27,7 @@ RAMP = 1.0  # cells of a crack over which a smooth tip fades
 # ten cells is right within 0.3 % on average over a cell, for two to four particles along a cell.
 FRONT = 0.32
 ENDS = {"plain": PLAIN, "edge": EDGE, "tip": TIP}
+RIGID = ""  # stands for the material of rigid bodies
 ON_PLANE = 1e-6  # cells
 MOST_STEPS = 1e12  # years of computing, long before time stops to move by round-off
 
@@ -41,6 +42,7 @@ def build(deck: Deck) -> tuple[Model, State]:
     blocks, particles = _fill(deck, lattice, seeds)
     paths = _paths(deck, lattice)
     conditions, obstacles = build_conditions(deck, lattice, particles, blocks, paths)
+    between = build_body_contact(deck)
     settings, geometry = deck.fracture, GEOMETRIES[deck.analysis](deck.thickness)
     model = Model(
         lattice=lattice,
@@ -52,8 +54,10 @@ def build(deck: Deck) -> tuple[Model, State]:
         dt=time_step(deck),
         end_time=deck.solver.end_time,
         crack_names=tuple(crack.name for crack in deck.cracks),
-        contact=_contact(deck),
+        contact=build_crack_laws(deck),
         conditions=conditions,
+        groups=build_groups(deck),
+        between_bodies=between,
         leaving=deck.solver.leaving,
         tip_nodes=_smooth_tips(blocks) if deck.solver.tips == "smooth" else None,
         fracture=Fracture(
@@ -74,6 +78,7 @@ def build(deck: Deck) -> tuple[Model, State]:
         paths=paths,
         books=no_energy(),
         reactions=reactions,
+        contact_forces=np.zeros((len(between.names) if between else 0, len(lattice.cells))),
         bands=np.array(bands),
         growth=make_growth(paths),
     )
@@ -87,7 +92,7 @@ def build_lattice(deck: Deck) -> Lattice:
 
 def time_step(deck: Deck) -> float:
     """Return the time step (s): the Courant condition of the fastest wave, or the deck's limit."""
-    used = {body.material for body in deck.bodies if not body.hole}
+    used = {body.material for body in deck.bodies if body.material}
     speeds = [wave_speed(deck.materials[name]) for name in used]
     step = deck.solver.cfl * deck.grid.cell / max(speeds)
     step = min(step, deck.solver.dt or step)
@@ -144,26 +149,28 @@ def _smooth_tips(blocks) -> TipNodes:
 
 def _fill(deck: Deck, lattice: Lattice, seeds) -> tuple[tuple[Block, ...], Particles]:
     """Return blocks of one material and particle size, and their particles sorted by cell."""
-    kinds = sorted({(b.material, b.particles_per_cell) for b in deck.bodies if not b.hole})
+    kinds = sorted({(b.material or RIGID, b.particles_per_cell) for b in deck.bodies if not b.hole})
     blocks, parts, start = [], [], 0
     for material, per_cell in kinds:
         bodies = [
             n
             for n, b in enumerate(deck.bodies)
-            if not b.hole and (b.material, b.particles_per_cell) == (material, per_cell)
+            if not b.hole and (b.material or RIGID, b.particles_per_cell) == (material, per_cell)
         ]
         points = np.concatenate([seeds[n] for n in bodies])
         owner = np.concatenate([np.full(len(seeds[n]), n) for n in bodies])
         points, owner = points[by_place := np.lexsort(points.T)], owner[by_place]
         order = sorted_by_cell(lattice, points)
-        section, half = deck.materials[material], (0.5 / per_cell,) * 2
-        law, shape = law_of(section), SHAPES[deck.solver.shape](half)
-        blocks.append(Block(start, start + len(points), law, shape, material, section.density))
+        law, density = None, 0.0  # of a rigid body
+        if material != RIGID:
+            law, density = law_of(deck.materials[material]), deck.materials[material].density
+        shape = SHAPES[deck.solver.shape]((0.5 / per_cell,) * 2)
+        blocks.append(Block(start, start + len(points), law, shape, material, density))
         volume = np.full(len(points), (lattice.width / per_cell) ** 2 * deck.thickness)
-        parts.append((points[order], owner[order], section.density * volume, volume))
+        parts.append((points[order], owner[order], density * volume, volume))
         start += len(points)
     columns = (np.concatenate(column) for column in zip(*parts, strict=True))
-    particles = particles_at(*columns, memory=max(memory(b.law) for b in blocks))
+    particles = particles_at(*columns, memory=max(memory(b.law) for b in blocks if b.law))
     for number, body in enumerate(deck.bodies):
         _set_moving(particles, number, body)
     return tuple(blocks), particles
@@ -172,7 +179,7 @@ def _fill(deck: Deck, lattice: Lattice, seeds) -> tuple[tuple[Block, ...], Parti
 def _set_moving(particles: Particles, number: int, body) -> None:
     """Give the particles of a body their initial velocity."""
     mine = particles.body == number
-    if body.hole or not mine.any():
+    if body.hole or body.rigid or not mine.any():
         return
     centre = particles.mass[mine] @ particles.position[mine] / particles.mass[mine].sum()
     arm = particles.position[mine] - centre
@@ -183,15 +190,6 @@ def _set_moving(particles: Particles, number: int, body) -> None:
 def _update(solver):
     kinds = {"flip": Flip, "pic": Fmpm, "fmpm": Fmpm, "xpic": Xpic}
     return kinds[solver.update_name](max(solver.update_order, 1))
-
-
-def _contact(deck: Deck) -> ContactLaws:
-    laws = [deck.contact_of(crack) for crack in deck.cracks]
-    mu = np.array([getattr(law, "mu", 0.0) for law in laws], dtype=float)
-    static = [getattr(law, "mu_static", None) for law in laws]
-    rest = [m if s is None else s for s, m in zip(static, mu, strict=True)]
-    kinds = np.array([LAWS[law.law] for law in laws], dtype=np.int64)
-    return ContactLaws(kinds, mu, np.array(rest, dtype=float))
 
 
 def _paths(deck: Deck, lattice: Lattice) -> Paths:

@@ -3,7 +3,7 @@
 import numpy as np
 
 from cramp_cli.cracks.crossing import ON_CRACK, crossed_cracks
-from cramp_cli.cracks.rows import find_row
+from cramp_cli.cracks.rows import find_row, of_group
 from cramp_cli.numerics.kernel import kernel
 
 OFF_PLANE = 1e-4  # a surface looks at the nodes from this distance off the plane (cells)
@@ -20,14 +20,16 @@ def side_normal(point, k, first, last):
 
 
 @kernel
-def surface_rows(rows, segments, crack, side, node, cell, qx, qy, nx, ny, tolerance):
+def surface_rows(rows, segments, of_crack, crack, side, node, cell, qx, qy, nx, ny, tolerance):
     """Return the rows of a node for one side of a crack at the point q, and for the other, or -1.
 
     Where rows of the node are told by this crack they decide: the row of the side, else the one
     without the crack. Without such rows the line from q to the node does. The other side counts
     beside a tip only.
     """
-    a, side_a, _, b, side_b, _, _ = crossed_cracks(segments, cell, qx, qy, nx, ny, tolerance)
+    group = of_crack[crack]
+    crossed = crossed_cracks(segments, cell, qx, qy, nx, ny, tolerance)
+    a, side_a, _, b, side_b, _, _ = of_group(crossed, of_crack, group)
     other, other_side = (b, side_b) if a == crack else (a, side_a)
     nodes = len(rows.first)
     beside_tip = rows.tip[node] // 2 == crack
@@ -38,30 +40,32 @@ def surface_rows(rows, segments, crack, side, node, cell, qx, qy, nx, ny, tolera
             known = known or rows.crack[row - nodes, slot] == crack
         row = rows.next[row - nodes]
     if not known:
-        return find_row(rows, node, a, side_a, b, side_b), -1
+        return find_row(rows, node, group, a, side_a, b, side_b), -1
     if other < 0:
-        mine = find_row(rows, node, crack, side, -1, 0)
+        mine = find_row(rows, node, group, crack, side, -1, 0)
     elif crack < other:
-        mine = find_row(rows, node, crack, side, other, other_side)
+        mine = find_row(rows, node, group, crack, side, other, other_side)
     else:
-        mine = find_row(rows, node, other, other_side, crack, side)
+        mine = find_row(rows, node, group, other, other_side, crack, side)
     if mine < 0:
-        mine = find_row(rows, node, other, other_side, -1, 0)
+        mine = find_row(rows, node, group, other, other_side, -1, 0)
     if not beside_tip:
         return mine, -1
     if other < 0:
-        facing = find_row(rows, node, crack, -side, -1, 0)
+        facing = find_row(rows, node, group, crack, -side, -1, 0)
     elif crack < other:
-        facing = find_row(rows, node, crack, -side, other, other_side)
+        facing = find_row(rows, node, group, crack, -side, other, other_side)
     else:
-        facing = find_row(rows, node, other, other_side, crack, -side)
+        facing = find_row(rows, node, group, other, other_side, crack, -side)
     if facing < 0:
-        facing = find_row(rows, node, other, other_side, -1, 0)
+        facing = find_row(rows, node, group, other, other_side, -1, 0)
     return mine, facing if facing != mine else -1
 
 
 @kernel
-def surface_motion(grid, rows, segments, crack, side, cut, q, x, cells, width, lower, strides):
+def surface_motion(
+    grid, rows, segments, of_crack, crack, side, cut, q, x, cells, width, lower, strides
+):
     """Return mass seen, velocity and acceleration of one surface at x (linear functions).
 
     cut: share of the crack at x, as of a particle there (tip_nodes.py)
@@ -79,7 +83,18 @@ def surface_motion(grid, rows, segments, crack, side, cut, q, x, cells, width, l
             node = (i0 + i) * strides[0] + (j0 + j) * strides[1]
             nx, ny = lower[0] + width * (i0 + i), lower[1] + width * (j0 + j)
             mine, facing = surface_rows(
-                rows, segments, crack, side, node, cell, q[0], q[1], nx, ny, ON_CRACK * width
+                rows,
+                segments,
+                of_crack,
+                crack,
+                side,
+                node,
+                cell,
+                q[0],
+                q[1],
+                nx,
+                ny,
+                ON_CRACK * width,
             )
             S = max(0.0, 1.0 - abs(rx - i0 - i)) * max(0.0, 1.0 - abs(ry - j0 - j))
             near = mass[mine] if mine >= 0 else 0.0
@@ -88,7 +103,10 @@ def surface_motion(grid, rows, segments, crack, side, cut, q, x, cells, width, l
                 continue
             # as a particle there: the share of the side, and of the mean of both sides
             part, both = near / (near + far), S * (near + (1.0 - cut) * far)
-            for row, share in ((mine, cut + (1.0 - cut) * part), (facing, (1.0 - cut) * (1.0 - part))):
+            for row, share in (
+                (mine, cut + (1.0 - cut) * part),
+                (facing, (1.0 - cut) * (1.0 - part)),
+            ):
                 if row < 0 or share == 0.0:
                     continue
                 w = both * share
@@ -121,23 +139,24 @@ def surface_step(surface, old, k, seen, v, a, width, dt):
 
 @kernel
 def move_surface(
-    paths, grid, rows, segments, crack, side, cut, k, q, cells, width, lower, strides, dt
+    paths, grid, rows, segments, of_crack, crack, side, cut, k, q, cells, width, lower, strides, dt
 ):
     """Move point k of one surface with the rows of its side; return whether, and by how much."""
     surface = paths.above if side > 0 else paths.below
     old = paths.above_velocity if side > 0 else paths.below_velocity
     x = (surface[k, 0], surface[k, 1])
     seen, vx, vy, ax, ay = surface_motion(
-        grid, rows, segments, crack, side, cut, q, x, cells, width, lower, strides
+        grid, rows, segments, of_crack, crack, side, cut, q, x, cells, width, lower, strides
     )
     return surface_step(surface, old, k, seen, (vx, vy), (ax, ay), width, dt)
 
 
 @kernel
-def move_cracks(paths, cut, grid, rows, segments, cells, width, lower, strides, dt):
+def move_cracks(paths, cut, grid, rows, segments, of_crack, cells, width, lower, strides, dt):
     """Move all surfaces and planes of cracks by one step.
 
-    cut: (points,) share of the crack at each point, below 1 beside smooth tips
+    cut: (points,) share of the crack at each point, below 1 beside smooth tips; of_crack: contact
+    group of the bodies that each crack cuts
 
     A side that sees no solid moves with the other one. A crack on a symmetry plane has a body on
     one side only; the other side is its image, so the plane stays where it is.
@@ -160,6 +179,7 @@ def move_cracks(paths, cut, grid, rows, segments, cells, width, lower, strides, 
                     grid,
                     rows,
                     segments,
+                    of_crack,
                     c,
                     1,
                     cut[k],
@@ -178,6 +198,7 @@ def move_cracks(paths, cut, grid, rows, segments, cells, width, lower, strides, 
                     grid,
                     rows,
                     segments,
+                    of_crack,
                     c,
                     -1,
                     cut[k],

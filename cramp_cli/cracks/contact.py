@@ -90,7 +90,10 @@ def impulse(kind, mu, mu_static, dp, n, dpn, gap):
 
 @kernel
 def touch_pair(grid, a, b, normal, gap, kind, mu, mu_static, strides, dt, stage):
-    """Let rows a (above) and b (below) touch; return what they do and the work of friction (J)."""
+    """Let rows a (above) and b (below) touch.
+
+    returns: what they do, the work of friction (J), and the momentum that a got from b
+    """
     mass, momentum, saved, force = grid.mass, grid.momentum, grid.saved, grid.force
     ma, mb = mass[a], mass[b]
     share_a, share_b = ma / (ma + mb), mb / (ma + mb)
@@ -111,11 +114,16 @@ def touch_pair(grid, a, b, normal, gap, kind, mu, mu_static, strides, dt, stage)
         elif stage == UPDATE:
             force[a, d] += given[d] / dt
             force[b, d] -= given[d] / dt
-    if state != SLIDING:
-        return state, 0.0
-    tangential_given = plus(given, -dot(given, normal), normal)
-    slip = plus(plus(dp, -dpn, normal), -0.5, tangential_given)
-    return state, dot(tangential_given, slip) / reduced
+    work = work_of_friction(dp, given, normal, reduced) if state == SLIDING else 0.0
+    return state, work, given
+
+
+@kernel
+def work_of_friction(dp, given, normal, reduced):
+    """Return what friction takes (J): the tangential momentum given times the mean slip."""
+    tangential = plus(given, -dot(given, normal), normal)
+    slip = plus(plus(dp, -dot(dp, normal), normal), -0.5, tangential)
+    return dot(tangential, slip) / reduced
 
 
 @kernel
@@ -157,7 +165,7 @@ def touch_across(grid, rows, laws, strides, dt, stage, row, slot):
         -1.0 / grid.mass[a],
         vector(strides, rows.displacement, a),
     )
-    state, friction = touch_pair(
+    state, friction, _ = touch_pair(
         grid,
         a,
         b,
@@ -204,10 +212,17 @@ def share_increment(increment, mass, rows, strides, row, slot):
     if state == 0 or partner < 0:
         return
     n = unit_normal(strides, rows.normal, e, slot)
-    apart = plus(vector(strides, increment, partner), -1.0, vector(strides, increment, row))
-    if state == SLIDING:
+    masses = (mass[row], mass[partner])
+    share_between(increment, row, partner, *masses, n, state == SLIDING, strides)
+
+
+@kernel
+def share_between(increment, a, b, ma, mb, n, sliding, strides):
+    """Let rows a and b share their increment by their masses, along n alone if they slide."""
+    apart = plus(vector(strides, increment, b), -1.0, vector(strides, increment, a))
+    if sliding:
         apart = times(n, dot(apart, n))
-    share = mass[partner] / (mass[row] + mass[partner])
+    share = mb / (ma + mb)
     for d in range(len(strides)):
-        increment[row, d] += share * apart[d]
-        increment[partner, d] -= (1.0 - share) * apart[d]
+        increment[a, d] += share * apart[d]
+        increment[b, d] -= (1.0 - share) * apart[d]

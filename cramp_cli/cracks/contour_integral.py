@@ -169,6 +169,7 @@ class _Walk:
         self.segments = self._segments_near()
         self.crossings = 0
         self.other_cracks = 0
+        self.other_bodies = 0
         self.empty = 0
 
     def _segments_near(self):
@@ -198,6 +199,8 @@ class _Walk:
             return "the crack crosses its contour more than once"
         if self.other_cracks:
             return "another crack crosses the contour"
+        if self.other_bodies:
+            return "another body is at the contour"
         if self.empty:
             return "the contour leaves the body"
         return ""
@@ -246,11 +249,13 @@ class _Walk:
         return self._mean(at, node)
 
     def _look_for_body(self, at, node):
-        """Count a node that sees less than a full cell."""
-        volume, row = self.volume[self._place(at, node)], self.scratch.rows.first[node]
+        """Count a node that sees less than a full cell, and one that several bodies see."""
+        rows = self.scratch.rows
+        volume, row = self.volume[self._place(at, node)], rows.first[node]
         while row >= 0:
             volume += self.volume[self._place(at, row)]
-            row = self.scratch.rows.next[row - self.nodes]
+            row = rows.next[row - self.nodes]
+        self.other_bodies += rows.lowest[node] < rows.highest[node]
         self.empty += volume < FULL * self.cell
 
     def _across(self, at):

@@ -5,6 +5,7 @@ import numpy as np
 from cramp_cli.cracks.advect import move_cracks
 from cramp_cli.cracks.contact import GLUED, sum_displacement
 from cramp_cli.cracks.crossing import list_segments, make_segments
+from cramp_cli.cracks.meetings import list_meeting_particles, mark_groups
 from cramp_cli.cracks.rows import (
     assign_rows,
     clear_shared,
@@ -33,11 +34,21 @@ def list_cracks(model, state, scratch) -> None:
 
 
 def find_rows(model, state, scratch) -> None:
-    """Find the rows of all particles near cracks; the particles must have been located."""
-    if not state.paths.crack_count:
+    """Find the rows of all particles near cracks and meetings; all must have been located."""
+    if model.between_bodies is not None:
+        _find_meetings(model, state, scratch)
+    elif not state.paths.crack_count:
         return
     while not _rows_fit(scratch, state, model):
         pass
+
+
+def _find_meetings(model, state, scratch) -> None:
+    """Mark the nodes that several contact groups see, and the particles there."""
+    rows, stencil, shape = scratch.rows, scratch.stencil, model.blocks[0].shape
+    place = (shape, model.strides)
+    mark_groups(rows, stencil, state.particles.body, model.groups.of_body, *place)
+    list_meeting_particles(rows, stencil, state.bands, scratch.report, *place)
 
 
 def _rows_fit(scratch, state, model) -> bool:
@@ -56,12 +67,11 @@ def _rows_fit(scratch, state, model) -> bool:
         _look_around_tips(model, state, scratch)
     place = (strides, lattice.nodes, lattice.width, lattice.lower)
     ramp = (0.0, 1.0) if tips is None else (tips.centre, tips.ramp)
-    position, paths = state.particles.position, state.paths
-    assign_rows(stencil, rows, segments, paths, position, shape, *place, *ramp)
+    who = (state.paths, state.particles, *model.groups)
+    assign_rows(stencil, rows, segments, *who, shape, *place, *ramp)
     if rows.count[0] > len(rows.node):
-        scratch.grid, scratch.rows = make_grid(
-            lattice.node_count, len(strides), 2 * int(rows.count[0])
-        )
+        scratch.grid, larger = make_grid(lattice.node_count, len(strides), 2 * int(rows.count[0]))
+        scratch.rows = larger._replace(lowest=rows.lowest, highest=rows.highest)
         return False
     return True
 
@@ -71,7 +81,13 @@ def _look_around_tips(model, state, scratch) -> None:
     lattice, rows, particles = model.lattice, scratch.rows, state.particles
     grid = (lattice.cells, lattice.width, lattice.lower, model.strides)
     mark_tip_nodes(rows, state.paths, scratch.segments, smooth_cracks(model), *grid)
-    place = (particles.position, particles.mass, model.blocks[0].shape, model.strides, lattice.width)
+    place = (
+        particles.position,
+        particles.mass,
+        model.blocks[0].shape,
+        model.strides,
+        lattice.width,
+    )
     sum_sides(rows, scratch.stencil, state.paths, *place, *model.tip_nodes)
     for m in (plane.mirror for plane in model.conditions.mirrors):
         if m.crack >= 0:
@@ -112,6 +128,7 @@ def move_paths(model, state, scratch) -> None:
         scratch.grid,
         scratch.rows,
         scratch.segments,
+        model.groups.of_crack,
         lattice.cells,
         lattice.width,
         lattice.lower,

@@ -1,10 +1,10 @@
-"""Give every particle-node pair its row: one velocity field for each side of the cracks.
+"""Give every particle-node pair its row: one velocity field per body and side of the cracks.
 
-A row of a node is told by the cracks that the lines from its particles cross and the sides they
-come from, so the result does not depend on the order of particles, any number of cracks may meet at
-a node, and contact acts between rows that differ by exactly one crack. A particle that a tip is
-passing is part cut (tip_nodes.py): it gives a share of its weight to the row of its side and the
-rest to the row that both sides share.
+A row of a node is told by the contact group of its particles (state/groups.py), the cracks that the
+lines from them cross and the sides they come from. So the result does not depend on the order of
+particles, any number of cracks may meet at a node, and contact acts between rows that differ by
+exactly one crack, or of two bodies. A particle that a tip is passing is part cut (tip_nodes.py): it
+gives a share of its weight to the row of its side and the rest to the row that both sides share.
 """
 
 import numpy as np
@@ -62,17 +62,20 @@ def forget_rows(rows):
 
 
 @inlined_kernel
-def find_row(rows, node, a, side_a, b, side_b):
-    """Return the row of `node` across cracks a and b (-1 for none) from the given sides, or -1."""
-    if a < 0:
+def find_row(rows, node, group, a, side_a, b, side_b):
+    """Return the row of a group at `node` across cracks a and b (-1 for none), or -1.
+
+    A row without cracks is that of the node itself for the first of the groups that see it.
+    """
+    if a < 0 and group == rows.lowest[node]:
         return node
     nodes = len(rows.first)
     row = rows.first[node]
     while row >= 0:
         e = row - nodes
         same_cracks = rows.crack[e, 0] == a and rows.crack[e, 1] == b
-        same_sides = rows.side[e, 0] == side_a and (b < 0 or rows.side[e, 1] == side_b)
-        if same_cracks and same_sides:
+        same_sides = (a < 0 or rows.side[e, 0] == side_a) and (b < 0 or rows.side[e, 1] == side_b)
+        if rows.group[e] == group and same_cracks and same_sides:
             return row
         row = rows.next[e]
     return -1
@@ -84,15 +87,16 @@ def row_across(rows, e, slot):
 
     It is the row that the same cracks tell from the other side, else the one without this crack.
     """
-    node, other, other_side = rows.node[e], rows.crack[e, 1 - slot], rows.side[e, 1 - slot]
+    node, group = rows.node[e], rows.group[e]
+    other, other_side = rows.crack[e, 1 - slot], rows.side[e, 1 - slot]
     crack, side = rows.crack[e, slot], rows.side[e, slot]
     if other < 0:
-        facing = find_row(rows, node, crack, -side, -1, 0)
+        facing = find_row(rows, node, group, crack, -side, -1, 0)
     elif slot == 0:
-        facing = find_row(rows, node, crack, -side, other, other_side)
+        facing = find_row(rows, node, group, crack, -side, other, other_side)
     else:
-        facing = find_row(rows, node, other, other_side, crack, -side)
-    return facing if facing >= 0 else find_row(rows, node, other, other_side, -1, 0)
+        facing = find_row(rows, node, group, other, other_side, crack, -side)
+    return facing if facing >= 0 else find_row(rows, node, group, other, other_side, -1, 0)
 
 
 @kernel
@@ -108,8 +112,8 @@ def crossed_row(rows, node, crack):
 
 
 @kernel
-def add_row(rows, node, a, side_a, b, side_b):
-    """Add a row to `node`, keeping its rows in ascending order of cracks and sides.
+def add_row(rows, node, group, a, side_a, b, side_b):
+    """Add a row to `node`, keeping its rows in ascending order of groups, cracks and sides.
 
     returns: the row, or -1 when there is no room
     """
@@ -120,12 +124,12 @@ def add_row(rows, node, a, side_a, b, side_b):
     if rows.first[node] < 0:
         rows.shared[rows.count[1]] = node
         rows.count[1] += 1
-    rows.node[e], rows.crack[e, 0], rows.crack[e, 1] = node, a, b
+    rows.node[e], rows.group[e], rows.crack[e, 0], rows.crack[e, 1] = node, group, a, b
     rows.side[e, 0], rows.side[e, 1] = side_a, side_b
     rows.normal[e, :, :] = 0.0
     rows.touching[e, :] = 0
     before, after = -1, rows.first[node]
-    while after >= 0 and _comes_first(rows, after - nodes, a, side_a, b, side_b):
+    while after >= 0 and _comes_first(rows, after - nodes, group, a, side_a, b, side_b):
         before, after = after, rows.next[after - nodes]
     rows.next[e] = after
     if before < 0:
@@ -136,39 +140,37 @@ def add_row(rows, node, a, side_a, b, side_b):
 
 
 @kernel
-def _comes_first(rows, e, a, side_a, b, side_b):
-    old = (rows.crack[e, 0], rows.crack[e, 1], rows.side[e, 0], rows.side[e, 1])
-    return old < (a, b, side_a, side_b)
+def _comes_first(rows, e, group, a, side_a, b, side_b):
+    cracks, sides = (rows.crack[e, 0], rows.crack[e, 1]), (rows.side[e, 0], rows.side[e, 1])
+    return (rows.group[e], *cracks, *sides) < (group, a, b, side_a, side_b)
 
 
 @inlined_kernel
-def join_row(rows, node, a, side_a, b, side_b):
+def join_row(rows, node, group, a, side_a, b, side_b):
     """Return the row of a pair that crosses cracks a and b from the given sides.
 
     A pair that comes from the wrong side of a crack (a crack folded within a cell) is counted and
     kept without that crack. At a node beside a tip both sides have rows, and none is wrong.
     """
-    if a < 0:
-        return node
-    row = find_row(rows, node, a, side_a, b, side_b)
+    row = find_row(rows, node, group, a, side_a, b, side_b)
     if row >= 0:
         return row
-    wrong_a = _is_wrong(rows, node, a, side_a)
+    wrong_a = a >= 0 and _is_wrong(rows, node, a, side_a)
     wrong_b = b >= 0 and _is_wrong(rows, node, b, side_b)
     if not wrong_a and not wrong_b:
-        return add_row(rows, node, a, side_a, b, side_b)
+        return add_row(rows, node, group, a, side_a, b, side_b)
     rows.count[2] += 1
     if wrong_a and not wrong_b and b >= 0:
-        return _join_single(rows, node, b, side_b)
+        return _join_single(rows, node, group, b, side_b)
     if wrong_b and not wrong_a:
-        return _join_single(rows, node, a, side_a)
-    return node
+        return _join_single(rows, node, group, a, side_a)
+    return _join_single(rows, node, group, -1, 0)
 
 
 @kernel
-def _join_single(rows, node, a, side_a):
-    row = find_row(rows, node, a, side_a, -1, 0)
-    return row if row >= 0 else add_row(rows, node, a, side_a, -1, 0)
+def _join_single(rows, node, group, a, side_a):
+    row = find_row(rows, node, group, a, side_a, -1, 0)
+    return row if row >= 0 else add_row(rows, node, group, a, side_a, -1, 0)
 
 
 @kernel
@@ -205,18 +207,18 @@ def add_entry(stencil, line, k, row, share, bx, by):
 
 
 @inlined_kernel
-def give_row(stencil, rows, ends, line, k, node, crossed):
+def give_row(stencil, rows, ends, line, k, node, group, crossed):
     """Give the pair of a particle and its node `k` the row of the cracks it crosses."""
     a, side_a, seg_a, b, side_b, seg_b, more = crossed
     rows.count[3] += more
-    row = join_row(rows, node, a, side_a, b, side_b)
+    row = join_row(rows, node, group, a, side_a, b, side_b)
     add_normal(rows, row, a, ends, seg_a)
     add_normal(rows, row, b, ends, seg_b)
     add_entry(stencil, line, k, row, 1.0, 0.0, 0.0)
 
 
 @inlined_kernel
-def give_shares(stencil, rows, ends, line, k, node, crossed, cut, gx, gy):
+def give_shares(stencil, rows, ends, line, k, node, group, crossed, cut, gx, gy):
     """Give the pair of a particle and its node `k` beside a tip its rows.
 
     The cut share goes to the row of the side of the particle, the rest to the rows of both sides as
@@ -233,7 +235,7 @@ def give_shares(stencil, rows, ends, line, k, node, crossed, cut, gx, gy):
     far = far_share(rows, node)
     q, gain = (cut + (1.0 - cut) * far, 1.0 - far) if across else ((1.0 - cut) * far, -far)
     if q < 1.0:
-        row = join_row(rows, node, a, side_a, b, side_b)
+        row = join_row(rows, node, group, a, side_a, b, side_b)
         add_normal(rows, row, a, ends, seg_a)
         add_normal(rows, row, b, ends, seg_b)
         add_entry(stencil, line, k, row, 1.0 - q, -gain * gx, -gain * gy)
@@ -241,9 +243,9 @@ def give_shares(stencil, rows, ends, line, k, node, crossed, cut, gx, gy):
         rows.count[3] += b >= 0
         side, seg = -rows.tip_side[node], rows.tip_segment[node]
         if a < 0 or c < a:
-            row = join_row(rows, node, c, side, a, side_a)
+            row = join_row(rows, node, group, c, side, a, side_a)
         else:
-            row = join_row(rows, node, a, side_a, c, side)
+            row = join_row(rows, node, group, a, side_a, c, side)
         add_normal(rows, row, c, ends, seg)
         add_normal(rows, row, a, ends, seg_a)
         add_entry(stencil, line, k, row, q, gain * gx, gain * gy)
@@ -288,13 +290,29 @@ def without_imagined(segments, crossed, own, x, y, nx, ny, tolerance):
 
     own: crack of the tip that is near the node, or -1
     """
+    a, _, seg_a, b, _, seg_b, _ = crossed
+    no_b = b >= 0 and b != own and is_imagined(segments, seg_b, x, y, nx, ny, tolerance)
+    no_a = a >= 0 and a != own and is_imagined(segments, seg_a, x, y, nx, ny, tolerance)
+    return but_for(crossed, no_a, no_b)
+
+
+@inlined_kernel
+def but_for(crossed, no_a, no_b):
+    """Return the cracks crossed without the first, the second, or both."""
     a, side_a, seg_a, b, side_b, seg_b, more = crossed
-    if b >= 0 and b != own and is_imagined(segments, seg_b, x, y, nx, ny, tolerance):
+    if no_b:
         b, side_b, seg_b = -1, 0, -1
-    if a >= 0 and a != own and is_imagined(segments, seg_a, x, y, nx, ny, tolerance):
+    if no_a:
         a, side_a, seg_a = b, side_b, seg_b
         b, side_b, seg_b = -1, 0, -1
     return a, side_a, seg_a, b, side_b, seg_b, more
+
+
+@inlined_kernel
+def of_group(crossed, of_crack, group):
+    """Return those of the cracks crossed that cut bodies of a group."""
+    a, b = crossed[0], crossed[3]
+    return but_for(crossed, a >= 0 and of_crack[a] != group, b >= 0 and of_crack[b] != group)
 
 
 @kernel
@@ -303,7 +321,9 @@ def assign_rows(
     rows,
     segments,
     paths,
-    position,
+    particles,
+    of_body,
+    of_crack,
     shape,
     strides,
     nodes_along,
@@ -312,26 +332,33 @@ def assign_rows(
     centre,
     ramp,
 ):
-    """List the rows of all particles near cracks; rows too many are counted, not made.
+    """List the rows of all particles near cracks and meetings; too many are counted, not made.
 
-    A particle that sees all its nodes across no crack leaves the list: its rows are its nodes.
+    A particle that sees all its nodes across no crack and shares none with another group leaves the
+    list: its rows are its nodes.
+
+    of_body, of_crack: contact group of each
     """
+    position, body = particles.position, particles.body
     listed, base, local = stencil.listed, stencil.base, stencil.local
     steps = offsets(strides, shape)
     side, tolerance = len(node_steps(shape, 1)), ON_CRACK * width
     line = 0
     for candidate in range(stencil.count[0]):
         p = listed[candidate]
-        cell, beside_tip = base[p], False
+        cell, beside_tip, meets, group = base[p], False, False, of_body[body[p]]
         for d in range(len(strides)):
             cell += int(np.floor(local[p, d])) * strides[d]
         for k in range(len(steps)):
-            beside_tip = beside_tip or rows.tip[base[p] + steps[k]] >= 0
+            node = base[p] + steps[k]
+            beside_tip = beside_tip or rows.tip[node] >= 0
+            meets = meets or rows.lowest[node] < rows.highest[node]
         corner = (base[p] % nodes_along[0], base[p] // strides[1])
         x0, y0 = lower[0] + width * corner[0], lower[1] + width * corner[1]
         x1, y1 = x0 + width * (side - 1), y0 + width * (side - 1)
         x, y = position[p, 0], position[p, 1]
-        if not beside_tip and not box_is_cut(segments, cell, x, y, x0, y0, x1, y1, tolerance):
+        listed_for = beside_tip or meets
+        if not listed_for and not box_is_cut(segments, cell, x, y, x0, y0, x1, y1, tolerance):
             stencil.near[p] = AROUND
             continue
         listed[line], stencil.near[p], stencil.entries[line] = p, line, 0
@@ -343,16 +370,18 @@ def assign_rows(
             node = base[p] + steps[k]
             nx, ny = off_crack(segments, cell, nx, ny, tolerance)
             tip = rows.tip[node]
+            tip = -1 if tip >= 0 and of_crack[tip // 2] != group else tip
             own = tip // 2 if tip >= 0 else -1
             crossed = crossed_cracks(segments, cell, x, y, nx, ny, tolerance)
             crossed = without_imagined(segments, crossed, own, x, y, nx, ny, tolerance)
+            crossed = of_group(crossed, of_crack, group)
             if tip < 0:
-                give_row(stencil, rows, segments.ends, line, k, node, crossed)
+                give_row(stencil, rows, segments.ends, line, k, node, group, crossed)
                 continue
             if tip != known:
                 known = tip
                 cut, gx, gy = cut_share(paths, tip, x, y, shape.half, width, centre, ramp)
-            give_shares(stencil, rows, segments.ends, line, k, node, crossed, cut, gx, gy)
+            give_shares(stencil, rows, segments.ends, line, k, node, group, crossed, cut, gx, gy)
         line += 1
     stencil.count[0] = line
 

@@ -26,8 +26,12 @@ def far_share(rows, node):
 
 
 @kernel
-def sum_sides(rows, stencil, paths, position, mass, shape, strides, width, centre, ramp):
-    """Sum what every node beside a tip sees on both sides; mark the nodes that see a cut."""
+def sum_sides(rows, stencil, paths, particles, of_body, of_crack, shape, strides, width, tip_nodes):
+    """Sum what every node beside a tip sees on both sides; mark the nodes that see a cut.
+
+    of_body, of_crack: contact group of each; tip_nodes: of TipNodes
+    """
+    position, mass, body = particles.position, particles.mass, particles.body
     steps = offsets(strides, shape)
     for candidate in range(stencil.count[0]):
         p = stencil.listed[candidate]
@@ -36,13 +40,13 @@ def sum_sides(rows, stencil, paths, position, mass, shape, strides, width, centr
         for k in range(len(steps)):
             node = stencil.base[p] + steps[k]
             tip = rows.tip[node]
-            if tip < 0:
+            if tip < 0 or of_crack[tip // 2] != of_body[body[p]]:
                 continue
             if tip != known:
                 known = tip
                 x, y = position[p, 0], position[p, 1]
                 side = _side_of(paths, tip, x, y, width)
-                cut, _, _ = cut_share(paths, tip, x, y, shape.half, width, centre, ramp)
+                cut, _, _ = cut_share(paths, tip, x, y, shape.half, width, *tip_nodes)
             rows.tip_seen[node, 0 if side == rows.tip_side[node] else 1] += S[k] * mass[p]
             rows.tip_split[node] = rows.tip_split[node] or cut > 0.0
 

@@ -150,7 +150,8 @@ def site_at(model, state, scratch, tip, place, before) -> Site:
     """
     frame = TipFrame(tuple(place.tolist()), before, before)
     reach = max(REACH * model.lattice.width, SPREAD[-1] * max(model.fracture.radii, default=0.0))
-    cloud = cloud_around(model, state, scratch, place, reach)
+    group = int(model.groups.of_crack[tip.crack])
+    cloud = cloud_around(model, state, scratch, place, reach, group)
     block = block_at(model, cloud, place)
     gravity = model.conditions.body_force(state.time, len(model.strides))
     half = bool(state.paths.mirror[tip.crack, 0] >= 0)

@@ -5,7 +5,8 @@ from collections.abc import Iterator
 from pydantic import Field
 
 from cramp_cli.deck.shapes import AnyShape
-from cramp_cli.schema.section import Count, Flag, Name, Section, Wrong
+from cramp_cli.schema.curve import Constant, Curve
+from cramp_cli.schema.section import Count, Flag, Name, Section, Wrong, only_one
 from cramp_cli.schema.units import AngularVelocity, Length, Point, Velocity, pair
 
 FIT = 1e-6  # of a cell: how well a box must fit whole cells, and a plane a grid line
@@ -44,12 +45,26 @@ class GridSection(Section):
                 yield ("upper", axis), f"{message}; nearest that fits: {fitting:.9g} m"
 
 
+class RigidSection(Section):
+    """Motion of a rigid body: a wall, a pin, a wedge."""
+
+    velocity: pair(Velocity) = Field((0.0, 0.0), description="its velocity")
+    in_time: Curve = Field(
+        default_factory=Constant, description="what `velocity` is multiplied by, over time"
+    )
+
+
 class BodySection(Section):
-    """A region filled with particles of one material, or a hole cut out of earlier bodies."""
+    """A region filled with particles of one material, a rigid body, or a hole in earlier bodies."""
 
     name: Name = Field(description="its name")
-    material: Name | None = Field(None, description="name of its material; not for a hole")
+    material: Name | None = Field(
+        None, description="name of its material; not if `hole` or `rigid`"
+    )
     hole: Flag = Field(False, description="cut the shape out of earlier bodies and fill nothing")
+    rigid: RigidSection | None = Field(
+        None, description="its motion, if it is rigid: it touches others and nothing moves it"
+    )
     shape: AnyShape = Field(description="the region; where bodies overlap the later one counts")
     particles_per_cell: Count = Field(
         2, ge=1, le=4, description="particles along each side of a cell"
@@ -62,15 +77,17 @@ class BodySection(Section):
     @classmethod
     def wrong_keys(cls, keys: set[str]) -> Iterator[Wrong]:
         """A body is made of something; a hole is not."""
-        if "hole" not in keys and "material" not in keys:
+        yield from only_one(keys, ("hole", "rigid"), needed=False)
+        if not keys & {"hole", "rigid", "material"}:
             yield ("material",), "is missing"
 
     def wrong_values(self) -> Iterator[Wrong]:
-        """A hole has no material and does not move."""
-        if not self.hole:
+        """A hole has no material and does not move; a rigid body has a motion of its own."""
+        if not self.hole and self.rigid is None:
             if self.material is None:
                 yield ("material",), "is missing"
             return
         for key in ("material", "velocity", "angular_velocity", "particles_per_cell"):
-            if getattr(self, key) != type(self).model_fields[key].default:
-                yield (key,), "does not go with hole: true"
+            free = self.rigid is not None and key == "particles_per_cell"
+            if not free and getattr(self, key) != type(self).model_fields[key].default:
+                yield (key,), f"does not go with {'hole: true' if self.hole else 'rigid'}"

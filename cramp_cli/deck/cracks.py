@@ -1,4 +1,4 @@
-"""What a deck says about cracks and the contact of their faces."""
+"""What a deck says about cracks."""
 
 from collections.abc import Iterator
 from functools import cached_property
@@ -8,57 +8,13 @@ from typing import Literal
 
 from pydantic import Field
 
+from cramp_cli.deck.contact import AnyContact
 from cramp_cli.deck.points import read_into
-from cramp_cli.schema.section import Name, Section, Wrong, one_of, only_one
-from cramp_cli.schema.units import Angle, Length, Number, Point, pair
+from cramp_cli.schema.section import Name, Section, Wrong, only_one
+from cramp_cli.schema.units import Angle, Length, Point, pair
 
-LAW = "kind of contact"
 End = Literal["tip", "edge", "plain"]
 FINE = 512  # pieces of an arc when its length is measured and its outline is drawn
-
-
-class Frictional(Section):
-    """Faces that touch slide with Coulomb friction; open ones are free."""
-
-    law: Literal["frictional"] = Field("frictional", description=LAW)
-    mu: Number = Field(0.0, ge=0, description="coefficient of sliding friction")
-    mu_static: Number | None = Field(
-        None, ge=0, description="coefficient before sliding begins; `mu` if not given"
-    )
-
-    def wrong_values(self) -> Iterator[Wrong]:
-        """Rest holds at least as well as sliding."""
-        if self.mu_static is not None and self.mu_static < self.mu:
-            yield ("mu_static",), f"must be at least mu ({self.mu:g}) (got {self.mu_static:g})"
-
-
-class Ignore(Section):
-    """Faces pass through each other."""
-
-    law: Literal["ignore"] = Field("ignore", description=LAW)
-
-
-class Stick(Section):
-    """Faces that touch move together; open ones are free."""
-
-    law: Literal["stick"] = Field("stick", description=LAW)
-
-
-class Glued(Section):
-    """Faces always move together, as if there were no crack."""
-
-    law: Literal["glued"] = Field("glued", description=LAW)
-
-
-AnyContact = one_of("law", Frictional, Ignore, Stick, Glued)
-
-
-class ContactSection(Section):
-    """How faces act on each other."""
-
-    cracks: AnyContact = Field(
-        default_factory=Frictional, description="the two faces of a crack, unless it says otherwise"
-    )
 
 
 class Arc(Section):

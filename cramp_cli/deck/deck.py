@@ -9,8 +9,10 @@ from pydantic import AfterValidator, Field, PrivateAttr, ValidationError
 from cramp_cli.deck.bodies import BodySection, GridSection
 from cramp_cli.deck.boundary import BoundarySection
 from cramp_cli.deck.checks import geometry_mistakes, name_mistakes
+from cramp_cli.deck.contact import AnyContact, ContactSection
+from cramp_cli.deck.contact_groups import contact_mistakes
 from cramp_cli.deck.crack_checks import crack_warnings
-from cramp_cli.deck.cracks import AnyContact, ContactSection, CrackSection
+from cramp_cli.deck.cracks import CrackSection
 from cramp_cli.deck.growth_checks import growth_mistakes
 from cramp_cli.deck.lattice import Box
 from cramp_cli.deck.loads import AnyLoad
@@ -52,7 +54,9 @@ class Deck(Section):
     materials: dict[Name, AnyMaterial] = Field(min_length=1, description="materials by name")
     bodies: tuple[BodySection, ...] = Field(min_length=1, description="bodies and holes, in order")
     cracks: tuple[CrackSection, ...] = Field((), description="cracks")
-    contact: ContactSection = Field(default_factory=ContactSection, description="contact of faces")
+    contact: ContactSection = Field(
+        default_factory=ContactSection, description="contact of crack faces and of bodies"
+    )
     boundary: tuple[BoundarySection, ...] = Field((), description="prescribed motion")
     loads: tuple[AnyLoad, ...] = Field((), description="forces, tractions, gravity")
     solver: SolverSection = Field(description="time steps")
@@ -128,7 +132,7 @@ def check_deck(source: Source, folder: Path) -> Deck:
         found += [source.mistake(*error) for error in explain(failure, data)]
         parts = salvage(data, folder)
     wrong = [*name_mistakes(data), *geometry_mistakes(parts)]
-    wrong += growth_mistakes(deck) if deck is not None else ()
+    wrong += (*growth_mistakes(deck), *contact_mistakes(deck)) if deck is not None else ()
     found += [source.mistake(*one) for one in wrong]
     if found or deck is None:
         raise DeckError(found)

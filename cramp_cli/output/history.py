@@ -33,7 +33,11 @@ HISTORY_COLUMNS = {
     "momentum_x": ("N*s", "momentum of all particles along x"),
     "momentum_y": ("N*s", "momentum of all particles along y"),
 }
-REACTION = ("N", "force of this boundary on the bodies in the last step before the row")
+# of columns with names of a deck, by the beginning of their names
+NAMED_COLUMNS = {
+    "reaction_": ("N", "force of this boundary on the bodies in the last step before the row"),
+    "contact_": ("N", "force of all others on this body, or its group, in the last step"),
+}
 
 CRACK_COLUMNS = {
     "step": ("1", "number of time steps done"),
@@ -127,12 +131,17 @@ def cut_tables(folder: Path, sizes: dict[str, int]) -> None:
 
 
 def history_columns(names: Iterable[str]) -> dict[str, tuple[str, str]]:
-    """Return the columns of history.csv, with the reactions among `names` at the end."""
-    extra = [name for name in names if name not in HISTORY_COLUMNS]
-    strange = [name for name in extra if not name.startswith("reaction_")]
+    """Return the columns of history.csv, with forces of boundaries and bodies at the end."""
+    extra = {name: named_column(name) for name in names if name not in HISTORY_COLUMNS}
+    strange = [name for name, meaning in extra.items() if meaning is None]
     if strange:
         raise ValueError(f"history.csv: no column named {', '.join(strange)}")
-    return HISTORY_COLUMNS | dict.fromkeys(extra, REACTION)
+    return HISTORY_COLUMNS | extra
+
+
+def named_column(column: str) -> tuple[str, str] | None:
+    """Return unit and meaning of a column that is called after something in the deck, or None."""
+    return next((text for key, text in NAMED_COLUMNS.items() if column.startswith(key)), None)
 
 
 def write_columns(folder: Path, history: dict[str, tuple[str, str]]) -> None:

@@ -2,7 +2,8 @@
 
 Row i below the number of nodes is velocity field 0 of node i, the side on which the node itself
 lies. Further rows exist only at nodes near cracks, one for every side that particles on the far
-side of a crack belong to (Nairn 2003: each node has multiple velocity fields).
+side of a crack belong to (Nairn 2003: each node has multiple velocity fields), and at nodes that
+bodies in contact share.
 """
 
 from typing import NamedTuple
@@ -26,17 +27,21 @@ class Grid(NamedTuple):
 class Rows(NamedTuple):
     """Which rows a node has beyond its own, and what lies between them.
 
-    A row is told by the cracks that the lines from its particles to its node cross: none (the
-    node's own row), one, or two. Arrays over extra rows start at row number `nodes`.
+    A row is told by the contact group of its particles and by the cracks that the lines from them
+    to its node cross: none, one, or two. The node's own row crosses none and belongs to the lowest
+    of the groups that see the node. Arrays over extra rows start at row number `nodes`.
     """
 
     count: (
         np.ndarray
     )  # (4,) extra rows in use, nodes with extra rows, wrong-side pairs, third cracks
     first: np.ndarray  # (nodes,) first extra row of a node, or -1
-    next: np.ndarray  # (extra,) next extra row of the same node, or -1; ascending in `crack`
+    next: np.ndarray  # (extra,) next extra row of the same node, or -1; ascending by their labels
     node: np.ndarray  # (extra,) node of an extra row
     shared: np.ndarray  # (extra,) nodes that have extra rows
+    lowest: np.ndarray  # (nodes,) the lowest of the contact groups that see a node
+    highest: np.ndarray  # (nodes,) the highest of them
+    group: np.ndarray  # (extra,) contact group of the particles of a row
     crack: np.ndarray  # (extra, 2) cracks crossed, ascending, -1 for none
     side: np.ndarray  # (extra, 2) side of the row's particles: +1 above, -1 below the crack
     normal: np.ndarray  # (extra, 2, dim) sum of crossed segments turned from above to below, m
@@ -67,6 +72,9 @@ def make_grid(node_count: int, dim: int, extra: int) -> tuple[Grid, Rows]:
         next=np.full(extra, -1, dtype=np.int64),
         node=np.zeros(extra, dtype=np.int64),
         shared=np.zeros(extra, dtype=np.int64),
+        lowest=np.zeros(node_count, dtype=np.int64),
+        highest=np.zeros(node_count, dtype=np.int64),
+        group=np.zeros(extra, dtype=np.int64),
         crack=np.full((extra, 2), -1, dtype=np.int64),
         side=np.zeros((extra, 2), dtype=np.int64),
         normal=np.zeros((extra, 2, dim)),

@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from cramp_cli.state.grid import Grid, Rows
+from cramp_cli.state.groups import Groups
 from cramp_cli.state.growth import Growth
 from cramp_cli.state.lattice import Lattice
 from cramp_cli.state.particles import Particles
@@ -14,11 +15,11 @@ from cramp_cli.state.stencil import Stencil
 
 
 class Block(NamedTuple):
-    """Particles lo..hi of one material and one size."""
+    """Particles lo..hi of one material and one size, or of a rigid body."""
 
     lo: int
     hi: int
-    law: Any  # record of the constitutive law
+    law: Any  # record of the constitutive law; None: rigid, moved by contact/bodies.py
     shape: Any  # record of the shape function with the half size of these particles
     material: str  # name in the deck
     density: float  # kg/m^3
@@ -72,6 +73,8 @@ class Model:
     crack_names: tuple
     contact: Any  # ContactLaws
     conditions: Any  # boundary conditions and loads
+    groups: Groups  # which bodies share their rows
+    between_bodies: Any = None  # BodyContact; None: all bodies are glued
     fracture: Any = None  # how J and K are evaluated
     propagation: Any = None  # when, where to and how fast cracks grow; None: they do not
     leaving: str = "error"  # what particles that leave the grid are: transfer/leaving.py
@@ -93,6 +96,7 @@ class State:
     paths: Paths
     books: Books
     reactions: np.ndarray  # (named boundaries, dim) of the last step (N)
+    contact_forces: np.ndarray  # (contact groups, dim) on their bodies in the last step (N)
     bands: np.ndarray  # (blocks, bands + 1) first particle of each band; those deleted come last
     growth: Growth
 
@@ -114,6 +118,7 @@ class Scratch:
     held: list | None = None  # rows held by each velocity condition, and their number
     remarks: list = field(default_factory=list)  # what a user should be told of this step
     free: list | None = None  # nodes of each symmetry plane that lie on its crack
+    meeting: Any = None  # contact between bodies
     share: np.ndarray | None = None  # (nodes,) of the sums of a node that are the body's own
 
     @property

@@ -9,7 +9,7 @@ DISSIPATED = 0  # energy per initial volume that plastic and viscous strain have
 PLASTIC_STRAIN = 1  # equivalent plastic strain; zero for laws without one
 OWN = 2  # first column of the law's own
 
-DELETED = -1  # place of a particle that is no more; it has no mass and lies behind the last band
+DELETED = -1  # place of a particle that is no more; it has no volume and lies behind the last band
 
 
 class Particles(NamedTuple):
@@ -57,3 +57,8 @@ def particles_at(position, body, mass, volume, memory: int = 0) -> Particles:
         body=np.ascontiguousarray(body, dtype=np.int64),
         id=np.arange(n),
     )
+
+
+def is_deleted(particles) -> np.ndarray:
+    """Return for each particle whether it is no more, shape (n,)."""
+    return particles.volume == 0.0

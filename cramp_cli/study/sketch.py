@@ -49,14 +49,16 @@ class Sketch:
         colours = dict(zip(self.deck.materials, MATERIALS * 20, strict=False))
         for number, outline in self.solids.items():
             body = self.deck.bodies[number]
-            text = f"{body.material}: {self._made_of(body.material)}"
+            text = f"{body.material or 'rigid'}: {self._made_of(body.material)}"
             for hull, holes in exteriors(outline):
-                self._fill(hull, holes, colours[body.material], text)
-            if any(body.velocity):
-                self._motion(outline, body)
+                self._fill(hull, holes, colours.get(body.material, GREY), text)
+            velocity = body.rigid.velocity if body.rigid else body.velocity
+            if any(velocity):
+                self._motion(outline, body, velocity)
 
-    def _made_of(self, material: str) -> str:
-        return ", ".join(b.name for b in self.deck.bodies if b.material == material)
+    def _made_of(self, material: str | None) -> str:
+        solid = [b for b in self.deck.bodies if not b.hole]
+        return ", ".join(b.name for b in solid if b.material == material)
 
     def _fill(self, hull, holes, colour, text) -> None:
         from matplotlib.patches import PathPatch
@@ -69,12 +71,12 @@ class Sketch:
         edge = {"facecolor": "none", "edgecolor": GREY, "linewidth": 0.8, "zorder": 2}
         self.axes.add_patch(PathPatch(path, **edge))
 
-    def _motion(self, outline, body) -> None:
+    def _motion(self, outline, body, velocity) -> None:
         place = np.array(outline.representative_point().coords[0])
-        speed = float(np.hypot(*body.velocity))
+        speed = float(np.hypot(*velocity))
         scale = scale_for("m/s", speed)
         text = f"{body.name}: {speed / scale.size:.3g} {scale.unit}"
-        self._arrows([place], np.array(body.velocity), PURPLE, text)
+        self._arrows([place], np.array(velocity), PURPLE, text)
 
     def boundary(self) -> None:
         """Draw fixed, moving and mirror planes where they meet bodies."""

@@ -3,7 +3,7 @@
 import numpy as np
 
 from cramp_cli.state.bands import band_axis, band_starts, share_out, sorted_by_cell
-from cramp_cli.state.particles import DELETED
+from cramp_cli.state.particles import DELETED, is_deleted
 from cramp_cli.transfer import to_grid, to_particles
 from cramp_cli.transfer.leaving import let_leave
 
@@ -37,7 +37,7 @@ def sort_particles(model, state, scratch) -> None:
     particles, lattice = state.particles, model.lattice
     for number, b in enumerate(model.blocks):
         order = sorted_by_cell(lattice, particles.position[b.lo : b.hi])
-        deleted = particles.mass[b.lo : b.hi][order] == 0.0
+        deleted = is_deleted(particles)[b.lo : b.hi][order]
         order = np.concatenate([order[~deleted], order[deleted]])
         for array in particles:
             array[b.lo : b.hi] = array[b.lo : b.hi][order]
@@ -50,7 +50,7 @@ def share_particles(state, scratch) -> None:
     """Share the particles out to the threads as the bands of the state say."""
     scratch.shared = [share_out(starts, scratch.team.size) for starts in state.bands]
     scratch.index = np.argsort(state.particles.id)
-    scratch.index[state.particles.id[state.particles.mass == 0.0]] = DELETED
+    scratch.index[state.particles.id[is_deleted(state.particles)]] = DELETED
 
 
 def _scatter(scratch, kernel, number, *args) -> None:
@@ -59,18 +59,23 @@ def _scatter(scratch, kernel, number, *args) -> None:
         scratch.team.run(kernel, args, parts)
 
 
+def _solids(model):
+    """Yield number and block of all particles that are not of a rigid body."""
+    return ((number, b) for number, b in enumerate(model.blocks) if b.law is not None)
+
+
 def sum_mass_and_momentum(model, state, scratch) -> None:
     """Sum mass and momentum of all particles in their rows."""
     to_grid.clear_sums(scratch.grid, scratch.row_count)
     particles = (scratch.grid, state.particles, scratch.stencil)
-    for number, b in enumerate(model.blocks):
+    for number, b in _solids(model):
         _scatter(scratch, to_grid.sum_mass_and_momentum, number, *particles, b.shape, model.strides)
 
 
 def sum_internal_force(model, state, scratch) -> None:
     """Sum the forces of the stresses."""
     particles = (scratch.grid, state.particles, scratch.stencil)
-    for number, b in enumerate(model.blocks):
+    for number, b in _solids(model):
         place = (b.shape, model.strides, model.lattice.width)
         _scatter(scratch, to_grid.sum_internal_force, number, *particles, *place)
 
@@ -79,7 +84,7 @@ def strain(model, state, scratch, share) -> None:
     """Strain all particles for a share of the step with the velocities of the grid."""
     particles = (state.particles, scratch.grid, scratch.stencil)
     rest = (model.strides, model.lattice.width, share * model.dt)
-    for number, b in enumerate(model.blocks):
+    for number, b in _solids(model):
         args = (*particles, b.law, model.geometry, b.shape, *rest)
         scratch.team.run(to_particles.update_stress, args, scratch.shared[number].shares)
 
@@ -95,7 +100,7 @@ def move(model, state, scratch) -> None:
     weighed = _weighed(particles) if conditions.gravity else 0.0
     if again:
         to_grid.clear(scratch.grid.saved, scratch.row_count)
-    for number, b in enumerate(model.blocks):
+    for number, b in _solids(model):
         args = (particles, scratch.grid, scratch.stencil, model.update, b.shape, model.strides)
         rest = (model.damping, model.dt, again, scratch.per_band)
         _scatter(scratch, to_particles.move_particles, number, *args, *rest)
@@ -111,7 +116,7 @@ def move(model, state, scratch) -> None:
 def smooth(model, state, scratch, target, field) -> None:
     """Add to `target` what a round trip to the particles makes of `field`; both (rows, dim)."""
     particles = (state.particles, scratch.stencil)
-    for number, b in enumerate(model.blocks):
+    for number, b in _solids(model):
         _scatter(scratch, to_grid.smooth, number, target, field, *particles, b.shape, model.strides)
 
 

@@ -29,6 +29,7 @@ STRIDES = (1, 2)
 EVERY_LAW = pytest.mark.parametrize("kind", [IGNORE, FRICTIONAL, STICK, GLUED])
 PASSES = pytest.mark.parametrize("stage", [FIRST, UPDATE, LAST])
 NONE = -1
+WHOLE = 0  # the only contact group
 DOWN = (0.0, -1.0)  # from above to below a crack along +x
 
 
@@ -38,7 +39,7 @@ def meeting(mass, momentum, normal=DOWN, gap=-1.0, force=((0.0, 0.0),) * 2):
     gap: opening of the faces (m); negative where they overlap
     """
     grid, rows = make_grid(1, 2, 1)
-    assert add_row(rows, 0, 0, 1, NONE, 0) == ABOVE
+    assert add_row(rows, 0, WHOLE, 0, 1, NONE, 0) == ABOVE
     rows.normal[0, 0] = 0.3 * np.array(normal)
     grid.mass[:], grid.momentum[:], grid.force[:] = mass, momentum, force
     grid.saved[:] = grid.momentum
@@ -235,7 +236,7 @@ def test_four_rows_of_two_crossing_cracks():
     """
     grid, rows = make_grid(1, 2, 3)
     for crossed in ((0, 1, NONE, 0), (1, 1, NONE, 0), (0, 1, 1, 1)):
-        add_row(rows, 0, *crossed)
+        add_row(rows, 0, WHOLE, *crossed)
     rows.normal[:] = DOWN
     grid.mass[:] = (1.0, 2.0, 3.0, 4.0)
     grid.momentum[:, 0] = (1.0, -2.0, 6.0, 2.0)
@@ -250,7 +251,7 @@ def test_higher_orders_do_not_depend_on_which_row_was_found_first(order):
     """Rows are found in the order of particles; four glued ones meet in that of their cracks."""
     crossed = ((0, 1, NONE, 0), (1, 1, NONE, 0), (0, 1, 1, 1))
     grid, rows = make_grid(1, 2, 3)
-    made = {n: add_row(rows, 0, *crossed[n]) for n in order}
+    made = {n: add_row(rows, 0, WHOLE, *crossed[n]) for n in order}
     rows.normal[:], rows.touching[:, 0], rows.touching[made[2] - 1, 1] = DOWN, STUCK, STUCK
     place = [0, *(made[n] for n in range(3))]
     grid.mass[place] = (1.0, 2.0, 3.0, 4.0)

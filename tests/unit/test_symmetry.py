@@ -9,6 +9,7 @@ from cramp_cli.cracks.rows import add_row
 from cramp_cli.state.grid import make_grid
 
 NONE = -1
+WHOLE = 0  # the only contact group
 ROW = {"cramp": 1, "analysis": "plane_strain", "grid": {"cell": 1.0}}
 STEEL = {"m": {"law": "elastic", "density": 1.0, "E": 1.0, "nu": 0.3}}
 
@@ -35,8 +36,8 @@ def test_images_are_repeated_without_adding():
 def test_rows_across_a_crack_have_images_of_their_own():
     """Rows across a crack through the plane face each other; one without an image stays."""
     _, rows = make_grid(3, 2, 3)
-    out, inside = add_row(rows, 0, 4, 1, NONE, 0), add_row(rows, 2, 4, 1, NONE, 0)
-    alone = add_row(rows, 0, 5, 1, NONE, 0)
+    out, inside = add_row(rows, 0, WHOLE, 4, 1, NONE, 0), add_row(rows, 2, WHOLE, 4, 1, NONE, 0)
+    alone = add_row(rows, 0, WHOLE, 5, 1, NONE, 0)
     field = np.zeros((6, 2))
     field[[out, inside, alone]] = [[1.0, 2.0], [10.0, 20.0], [7.0, 7.0]]
     reflect(field, rows, 0, NONE, np.array([0]), np.array([2]), True)
@@ -46,7 +47,7 @@ def test_rows_across_a_crack_have_images_of_their_own():
 def test_a_crack_on_the_plane_parts_body_and_image():
     """Rows reached through it are free, and so are the nodes of the plane on it."""
     _, rows = make_grid(3, 2, 2)
-    out, on = add_row(rows, 0, 4, 1, NONE, 0), add_row(rows, 1, 4, 1, NONE, 0)
+    out, on = add_row(rows, 0, WHOLE, 4, 1, NONE, 0), add_row(rows, 1, WHOLE, 4, 1, NONE, 0)
     field = np.full((5, 2), 3.0)
     reflect(field, rows, 0, 4, np.array([0]), np.array([2]), True)
     assert field[out].tolist() == [3.0, 3.0]

@@ -59,6 +59,17 @@ def incline_slide(t, angle, mu, ramp, g=9.81):
     return a * (t**2 / 2.0 - ramp * t / 2.0 + ramp**2 / 6.0), a * (t - ramp / 2.0)
 
 
+def hertz_line(force, radius, stiffness):
+    """Half width of the contact (m) and largest pressure (Pa) of a cylinder on a half-plane.
+
+    force: per length (N/m); stiffness: E/(1 - nu^2) where only one of both is elastic (Pa). Under
+    the middle the normal stress is -p0 / sqrt(1 + (z/a)^2) at depth z. K. L. Johnson, Contact
+    Mechanics, 1985, eqs. 4.43, 4.45 and 4.46.
+    """
+    half_width = np.sqrt(4.0 * force * radius / (np.pi * stiffness))
+    return half_width, 2.0 * force / (np.pi * half_width)
+
+
 def center_crack(sigma, a, half_width):
     """K_I of a crack of length 2a in the middle of a long strip under tension.
 

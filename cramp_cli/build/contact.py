@@ -1,0 +1,50 @@
+"""From the `contact` section of a deck to laws of cracks and bodies, and contact groups."""
+
+import numpy as np
+
+from cramp_cli.contact.laws import NORMALS, BodyContact, BodyLaws, RigidBody
+from cramp_cli.cracks.contact import LAWS, ContactLaws
+from cramp_cli.deck.contact_groups import group_of_crack, groups_of_bodies, names_of_groups
+from cramp_cli.state.groups import Groups
+
+
+def build_crack_laws(deck) -> ContactLaws:
+    """Return the law of every crack."""
+    laws = [_numbers(deck.contact_of(crack)) for crack in deck.cracks]
+    kind, mu, mu_static = (np.array([law[n] for law in laws], dtype=float) for n in range(3))
+    return ContactLaws(kind.astype(np.int64), mu, mu_static)
+
+
+def _numbers(section) -> tuple[int, float, float]:
+    """Return kind, mu and mu_static of a law of a deck."""
+    mu, static = getattr(section, "mu", 0.0), getattr(section, "mu_static", None)
+    return LAWS[section.law], mu, mu if static is None else static
+
+
+def build_groups(deck) -> Groups:
+    """Return the contact group of every body and crack."""
+    together = deck.contact.bodies is None
+    cracks = [0 if together else group_of_crack(deck, crack) for crack in deck.cracks]
+    of_body = np.array(groups_of_bodies(deck), dtype=np.int64)
+    return Groups(of_body, np.array(cracks, dtype=np.int64))
+
+
+def build_body_contact(deck) -> BodyContact | None:
+    """Return how the bodies touch; None if they do not."""
+    section = deck.contact
+    if section.bodies is None:
+        return None
+    group = dict(zip((b.name for b in deck.bodies), groups_of_bodies(deck), strict=True))
+    names = names_of_groups(deck)
+    laws = np.empty((3, len(names), len(names)))
+    laws[:] = np.array(_numbers(section.bodies))[:, None, None]
+    for pair in section.pairs:
+        a, b = (group[name] for name in pair.bodies)
+        laws[:, a, b] = laws[:, b, a] = _numbers(pair.contact)
+    rigid = tuple(
+        RigidBody(group[b.name], n, np.array(b.rigid.velocity, dtype=float), b.rigid.in_time)
+        for n, b in enumerate(deck.bodies)
+        if b.rigid
+    )
+    tables = BodyLaws(laws[0].astype(np.int64), laws[1].copy(), laws[2].copy())
+    return BodyContact(tuple(names), tables, NORMALS[section.normal], rigid)

@@ -1,0 +1,1 @@
+"""Contact between bodies: normals, separation, laws, rigid bodies."""

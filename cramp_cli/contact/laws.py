@@ -1,0 +1,50 @@
+"""How bodies touch: a law for each pair of contact groups, and the way normals are found."""
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+AVERAGE, LARGER, LOGISTIC = 0, 1, 2
+NORMALS = {"average": AVERAGE, "larger": LARGER, "logistic": LOGISTIC}
+
+
+class BodyLaws(NamedTuple):
+    """Law of every pair of contact groups; symmetric."""
+
+    kind: np.ndarray  # (groups, groups) IGNORE, FRICTIONAL, STICK or GLUED (cracks/contact.py)
+    mu: np.ndarray  # (groups, groups) coefficient of sliding friction
+    mu_static: np.ndarray  # (groups, groups) coefficient of static friction, not below mu
+
+
+@dataclass(frozen=True)
+class RigidBody:
+    """A body with prescribed motion: velocity times curve."""
+
+    group: int
+    body: int  # number in the deck
+    velocity: np.ndarray  # (dim,) m/s
+    curve: Any  # .value(t)
+
+
+@dataclass(frozen=True)
+class BodyContact:
+    """Contact between the bodies of a model."""
+
+    names: tuple  # of the contact groups, for their forces
+    laws: BodyLaws
+    normal: int  # AVERAGE, LARGER or LOGISTIC
+    rigid: tuple = ()  # of RigidBody
+
+    def rigid_groups(self) -> np.ndarray:
+        """Return for each contact group whether it is a rigid body, as 0 or 1."""
+        flags = np.zeros(len(self.names), dtype=np.int64)
+        flags[[one.group for one in self.rigid]] = 1
+        return flags
+
+    def rigid_velocities(self, time: float, dim: int) -> np.ndarray:
+        """Return the prescribed velocity of every contact group (m/s), zero where there is none."""
+        velocity = np.zeros((len(self.names), dim))
+        for one in self.rigid:
+            velocity[one.group] = one.curve.value(time) * one.velocity
+        return velocity
