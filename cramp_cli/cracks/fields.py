@@ -81,14 +81,9 @@ def _look_around_tips(model, state, scratch) -> None:
     lattice, rows, particles = model.lattice, scratch.rows, state.particles
     grid = (lattice.cells, lattice.width, lattice.lower, model.strides)
     mark_tip_nodes(rows, state.paths, scratch.segments, smooth_cracks(model), *grid)
-    place = (
-        particles.position,
-        particles.mass,
-        model.blocks[0].shape,
-        model.strides,
-        lattice.width,
-    )
-    sum_sides(rows, scratch.stencil, state.paths, *place, *model.tip_nodes)
+    who = (state.paths, particles, *model.groups)
+    place = (model.blocks[0].shape, model.strides, lattice.width, model.tip_nodes)
+    sum_sides(rows, scratch.stencil, *who, *place)
     for m in (plane.mirror for plane in model.conditions.mirrors):
         if m.crack >= 0:
             see_image(rows, m.crack, m.on, m.outside, m.inside)
