@@ -74,7 +74,7 @@ def opening_of(law, share, damage, largest):
     low, high = 0.0, largest
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
-        if middle == low or middle == high:
+        if middle in (low, high):
             break
         if damage_at(law, share, middle) > damage:
             high = middle

@@ -1,7 +1,8 @@
 """Trilinear law: up to the peak, down to a knee, down to nothing.
 
-Peak s at d_1, knee r s at d_1 + w (d_c - d_1):  G = s (d_1 + (w + r)(d_c - d_1))/2. A steep fall and
-a long tail: matrix and bridging fibres. Between the modes r and w change straight with the share.
+Peak s at d_1, knee r s at d_1 + w (d_c - d_1):  G = s (d_1 + (w + r)(d_c - d_1))/2. A steep fall
+and a long tail: matrix and bridging fibres. Between the modes r and w change straight with the
+share.
 """
 
 from typing import NamedTuple

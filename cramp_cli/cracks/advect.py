@@ -1,5 +1,7 @@
 """Cracks move with the solid: each surface with the rows of its side, the plane with their mean."""
 
+from typing import NamedTuple
+
 import numpy as np
 
 from cramp_cli.cracks.crossing import ON_CRACK, crossed_cracks
@@ -51,20 +53,32 @@ def surface_rows(rows, segments, crack, side, node, cell, qx, qy, nx, ny, tolera
     return mine, whole if beside_tip else -1
 
 
-@kernel
-def surface_motion(grid, rows, segments, crack, side, cut, q, x, cells, width, lower, strides):
-    """Return mass seen, velocity and acceleration of one surface at x (linear functions).
+class Seen(NamedTuple):
+    """What the point of a surface sees: room for two rows of each of the four nodes around it."""
 
+    row: np.ndarray  # (8,)
+    weight: np.ndarray  # (8,) linear function of the node times mass of the row (kg)
+
+
+def make_seen() -> Seen:
+    """Return room for what a point sees."""
+    return Seen(np.zeros(8, dtype=np.int64), np.zeros(8))
+
+
+@kernel
+def look_around(seen, mass, rows, segments, crack, side, cut, q, x, cells, width, lower, strides):
+    """Find the rows that a surface sees at x; return their number and the sum of the weights (kg).
+
+    q: x off the crack, on the side of the surface
     cut: share of the crack at x, as of a particle there (tip_nodes.py)
     """
-    mass, velocity, acceleration = grid.mass, grid.velocity, grid.acceleration
     rx, ry = (x[0] - lower[0]) / width, (x[1] - lower[1]) / width
     i0 = min(max(int(np.floor(rx)), 0), cells[0] - 1)
     j0 = min(max(int(np.floor(ry)), 0), cells[1] - 1)
     qi = min(max(int(np.floor((q[0] - lower[0]) / width)), 0), cells[0] - 1)
     qj = min(max(int(np.floor((q[1] - lower[1]) / width)), 0), cells[1] - 1)
     cell = qi * strides[0] + qj * strides[1]
-    total, vx, vy, ax, ay = 0.0, 0.0, 0.0, 0.0, 0.0
+    count, total = 0, 0.0
     for j in range(2):
         for i in range(2):
             node = (i0 + i) * strides[0] + (j0 + j) * strides[1]
@@ -77,11 +91,28 @@ def surface_motion(grid, rows, segments, crack, side, cut, q, x, cells, width, l
                 if row < 0 or mass[row] <= 0.0:
                     continue
                 w = S * share * mass[row]
+                seen.row[count], seen.weight[count] = row, w
+                count += 1
                 total += w
-                vx += w * velocity[row, 0]
-                vy += w * velocity[row, 1]
-                ax += w * acceleration[row, 0]
-                ay += w * acceleration[row, 1]
+    return count, total
+
+
+@kernel
+def surface_motion(
+    seen, grid, rows, segments, crack, side, cut, q, x, cells, width, lower, strides
+):
+    """Return mass seen, velocity and acceleration of one surface at x (look_around)."""
+    velocity, acceleration = grid.velocity, grid.acceleration
+    count, total = look_around(
+        seen, grid.mass, rows, segments, crack, side, cut, q, x, cells, width, lower, strides
+    )
+    vx, vy, ax, ay = 0.0, 0.0, 0.0, 0.0
+    for e in range(count):
+        row, w = seen.row[e], seen.weight[e]
+        vx += w * velocity[row, 0]
+        vy += w * velocity[row, 1]
+        ax += w * acceleration[row, 0]
+        ay += w * acceleration[row, 1]
     if total > 0.0:
         return total, vx / total, vy / total, ax / total, ay / total
     return 0.0, 0.0, 0.0, 0.0, 0.0
@@ -106,22 +137,23 @@ def surface_step(surface, old, k, seen, v, a, width, dt):
 
 @kernel
 def move_surface(
-    paths, grid, rows, segments, crack, side, cut, k, q, cells, width, lower, strides, dt
+    seen, paths, grid, rows, segments, crack, side, cut, k, q, cells, width, lower, strides, dt
 ):
     """Move point k of one surface with the rows of its side; return whether, and by how much."""
     surface = paths.above if side > 0 else paths.below
     old = paths.above_velocity if side > 0 else paths.below_velocity
     x = (surface[k, 0], surface[k, 1])
-    seen, vx, vy, ax, ay = surface_motion(
-        grid, rows, segments, crack, side, cut, q, x, cells, width, lower, strides
+    mass, vx, vy, ax, ay = surface_motion(
+        seen, grid, rows, segments, crack, side, cut, q, x, cells, width, lower, strides
     )
-    return surface_step(surface, old, k, seen, (vx, vy), (ax, ay), width, dt)
+    return surface_step(surface, old, k, mass, (vx, vy), (ax, ay), width, dt)
 
 
 @kernel
-def move_cracks(paths, cut, grid, rows, segments, cells, width, lower, strides, dt):
+def move_cracks(seen, paths, cut, grid, rows, segments, cells, width, lower, strides, dt):
     """Move all surfaces and planes of cracks by one step.
 
+    seen: room for what a point sees
     cut: (points,) share of the crack at each point, below 1 beside smooth tips
 
     A side that sees no solid moves with the other one. A crack on a symmetry plane has a body on
@@ -141,6 +173,7 @@ def move_cracks(paths, cut, grid, rows, segments, cells, width, lower, strides, 
             if axis < 0 or body > 0:
                 q = (point[k, 0] + off * n[0], point[k, 1] + off * n[1])
                 up, ax, ay = move_surface(
+                    seen,
                     paths,
                     grid,
                     rows,
@@ -159,6 +192,7 @@ def move_cracks(paths, cut, grid, rows, segments, cells, width, lower, strides, 
             if axis < 0 or body < 0:
                 q = (point[k, 0] - off * n[0], point[k, 1] - off * n[1])
                 down, bx, by = move_surface(
+                    seen,
                     paths,
                     grid,
                     rows,

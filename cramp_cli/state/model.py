@@ -73,6 +73,7 @@ class Model:
     contact: Any  # ContactLaws
     conditions: Any  # boundary conditions and loads
     fracture: Any = None  # how J and K are evaluated
+    cohesion: Any = None  # traction laws of crack faces; None: there are none
     propagation: Any = None  # when, where to and how fast cracks grow; None: they do not
     tip_nodes: TipNodes | None = None  # None: cut at once, by the line test alone (the paper)
     strides: tuple = field(init=False)
@@ -112,6 +113,8 @@ class Scratch:
     origins: Any = None  # numbers of the particles by the cells in which they started
     held: list | None = None  # rows held by each velocity condition, and their number
     free: list | None = None  # nodes of each symmetry plane that lie on its crack
+    drawn: Any = None  # tractions on the faces of cracks in this step, gaps at its start
+    parted: Any = ()  # crack points that have lost all traction in this step
     share: np.ndarray | None = None  # (nodes,) of the sums of a node that are the body's own
 
     @property
