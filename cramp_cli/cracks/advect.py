@@ -1,5 +1,6 @@
 """Cracks move with the solid: each surface with the rows of its side, the plane with their mean."""
 
+from math import inf
 from typing import NamedTuple
 
 import numpy as np
@@ -9,6 +10,7 @@ from cramp_cli.cracks.rows import find_row
 from cramp_cli.numerics.kernel import kernel
 
 OFF_PLANE = 1e-4  # a surface looks at the nodes from this distance off the plane (cells)
+LIGHT = 0.1  # rows of less than this share of the heaviest one around count less in even weights
 LARGEST_STEP = 0.5  # a surface that would move further in one step (cells) stays
 
 
@@ -57,7 +59,7 @@ class Seen(NamedTuple):
     """What the point of a surface sees: room for two rows of each of the four nodes around it."""
 
     row: np.ndarray  # (8,)
-    weight: np.ndarray  # (8,) linear function of the node times mass of the row (kg)
+    weight: np.ndarray  # (8,) what the row counts
 
 
 def make_seen() -> Seen:
@@ -66,9 +68,13 @@ def make_seen() -> Seen:
 
 
 @kernel
-def look_around(seen, mass, rows, segments, crack, side, cut, q, x, cells, width, lower, strides):
-    """Find the rows that a surface sees at x; return their number and the sum of the weights (kg).
+def look_around(
+    seen, even, mass, rows, segments, crack, side, cut, q, x, cells, width, lower, strides
+):
+    """Find the rows that a surface sees at x; return their number and the sum of the weights.
 
+    even: rows count by their linear functions, as a stress on a surface wants it, light rows less;
+    else by their masses as well
     q: x off the crack, on the side of the surface
     cut: share of the crack at x, as of a particle there (tip_nodes.py)
     """
@@ -78,7 +84,7 @@ def look_around(seen, mass, rows, segments, crack, side, cut, q, x, cells, width
     qi = min(max(int(np.floor((q[0] - lower[0]) / width)), 0), cells[0] - 1)
     qj = min(max(int(np.floor((q[1] - lower[1]) / width)), 0), cells[1] - 1)
     cell = qi * strides[0] + qj * strides[1]
-    count, total = 0, 0.0
+    count, heaviest = 0, 0.0
     for j in range(2):
         for i in range(2):
             node = (i0 + i) * strides[0] + (j0 + j) * strides[1]
@@ -88,23 +94,35 @@ def look_around(seen, mass, rows, segments, crack, side, cut, q, x, cells, width
             )
             S = max(0.0, 1.0 - abs(rx - i0 - i)) * max(0.0, 1.0 - abs(ry - j0 - j))
             for row, share in ((mine, cut if whole >= 0 else 1.0), (whole, 1.0 - cut)):
-                if row < 0 or mass[row] <= 0.0:
-                    continue
-                w = S * share * mass[row]
-                seen.row[count], seen.weight[count] = row, w
-                count += 1
-                total += w
-    return count, total
+                if row >= 0 and mass[row] > 0.0:
+                    seen.row[count], seen.weight[count] = row, S * share
+                    heaviest = max(heaviest, mass[row])
+                    count += 1
+    return count, weigh(seen, count, mass, LIGHT * heaviest if even else inf)
+
+
+@kernel
+def weigh(seen, count, mass, enough):
+    """Weigh rows by mass up to what is `enough` (kg); by all of it if that is infinite.
+
+    returns: the sum of the weights
+    """
+    total = 0.0
+    for e in range(count):
+        m = mass[seen.row[e]]
+        seen.weight[e] *= m if enough == inf else min(m / enough, 1.0)
+        total += seen.weight[e]
+    return total
 
 
 @kernel
 def surface_motion(
-    seen, grid, rows, segments, crack, side, cut, q, x, cells, width, lower, strides
+    seen, even, grid, rows, segments, crack, side, cut, q, x, cells, width, lower, strides
 ):
     """Return mass seen, velocity and acceleration of one surface at x (look_around)."""
     velocity, acceleration = grid.velocity, grid.acceleration
     count, total = look_around(
-        seen, grid.mass, rows, segments, crack, side, cut, q, x, cells, width, lower, strides
+        seen, even, grid.mass, rows, segments, crack, side, cut, q, x, cells, width, lower, strides
     )
     vx, vy, ax, ay = 0.0, 0.0, 0.0, 0.0
     for e in range(count):
@@ -144,7 +162,20 @@ def move_surface(
     old = paths.above_velocity if side > 0 else paths.below_velocity
     x = (surface[k, 0], surface[k, 1])
     mass, vx, vy, ax, ay = surface_motion(
-        seen, grid, rows, segments, crack, side, cut, q, x, cells, width, lower, strides
+        seen,
+        paths.law[k] >= 0,
+        grid,
+        rows,
+        segments,
+        crack,
+        side,
+        cut,
+        q,
+        x,
+        cells,
+        width,
+        lower,
+        strides,
     )
     return surface_step(surface, old, k, mass, (vx, vy), (ax, ay), width, dt)
 

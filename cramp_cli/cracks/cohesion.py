@@ -102,10 +102,23 @@ def spread(
             below = (paths.below[k, 0], paths.below[k, 1])
             over, under = (x + off * n[0], y + off * n[1]), (x - off * n[0], y - off * n[1])
             count_up, total_up = look_around(
-                up, mass, rows, segments, c, 1, cut[k], over, above, cells, width, lower, strides
+                up,
+                True,
+                mass,
+                rows,
+                segments,
+                c,
+                1,
+                cut[k],
+                over,
+                above,
+                cells,
+                width,
+                lower,
+                strides,
             )
             count_down, total_down = look_around(
-                down, mass, rows, segments, c, -1, cut[k], under, below, cells, width, lower,
+                down, True, mass, rows, segments, c, -1, cut[k], under, below, cells, width, lower,
                 strides,
             )  # fmt: skip
             if total_up <= 0.0 or total_down <= 0.0:
