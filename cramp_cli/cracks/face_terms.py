@@ -41,7 +41,7 @@ def rubbed_off(model, site, crack, inner, radius) -> float:
     sliding = model.contact.kind[crack] == FRICTIONAL
     limit = model.contact.mu[crack] * pressure if sliding else inf
     stress = min(max(shear, -limit), limit)
-    return _singular_integral(np.zeros(1), np.array([stress]), inner, radius)
+    return _singular_integral(np.array([0.0, radius]), np.array([stress]), inner, radius)
 
 
 def drawn(model, state, tip, now, inner, radius) -> np.ndarray:
@@ -51,14 +51,15 @@ def drawn(model, state, tip, now, inner, radius) -> np.ndarray:
     """
     if model.cohesion is None:
         return np.zeros(3)
-    way, gap, traction = _faces(model, state, tip)
+    way, step, traction = _pieces(model, state, tip)
     middle = 0.5 * (way[1:] + way[:-1])
     q = np.array([weight(r, inner, radius)[0] if r < radius else 0.0 for r in middle.tolist()])
-    J = float(q @ _work_of_pieces(gap, traction))
+    J = float(q @ np.sum(traction * step, axis=1))
     (ex, ey), side = now, 2 * tip.end - 1
     normal, along = side * (traction @ (-ey, ex)), side * (traction @ (ex, ey))
-    K = [_singular_integral(way, stress, inner, radius) for stress in (normal, along)]
-    return np.array([J, *K])
+    return np.array(
+        [J, *(_singular_integral(way, stress, inner, radius) for stress in (normal, along))]
+    )
 
 
 def zone_energy(model, state, tip) -> float:
@@ -68,31 +69,39 @@ def zone_energy(model, state, tip) -> float:
     """
     if model.cohesion is None:
         return 0.0
-    _, gap, traction = _faces(model, state, tip)
-    laws = model.cohesion.laws
-    pressures = [n for n, law in enumerate(laws) if isinstance(law, Pressure)]
-    traction[np.isin(state.paths.law[tip.points], pressures)] = 0.0
-    widest = int(np.argmax(np.hypot(*gap.T)))
-    return float(_work_of_pieces(gap, traction)[:widest].sum())
+    _, step, traction = _pieces(model, state, tip, without=Pressure)
+    widest = int(np.argmax(np.hypot(*np.cumsum(step, axis=0).T))) + 1
+    return float(np.sum(traction[:widest] * step[:widest]))
 
 
-def _faces(model, state, tip):
-    """Return distance from the tip (m), gap (m) and traction (Pa) at the points of its crack."""
+def _pieces(model, state, tip, without=()):
+    """Return the pieces of a crack as they follow each other from its tip.
+
+    The tip is closed: the part of a cell ahead of it in which a smooth tip opens counts behind it.
+
+    without: kind of law that is left out
+    returns: distances of their ends from the tip (n + 1,), m; step of the gap from end to end
+    (n, 2), m; mean traction (n, 2), Pa, none where a law covers not both ends
+    """
     paths, points = state.paths, tip.points
-    way = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(paths.origin[points], axis=0).T))])
-    return way, (paths.above - paths.below)[points], tractions_now(model, state)[points]
-
-
-def _work_of_pieces(gap, traction) -> np.ndarray:
-    """Return T_i d(gap_i) of every piece between two points (J/m^2), by the trapezoid rule."""
-    return np.sum(0.5 * (traction[1:] + traction[:-1]) * np.diff(gap, axis=0), axis=1)
+    lengths = np.hypot(*np.diff(paths.origin[points], axis=0).T)
+    gap = (paths.above - paths.below)[points]
+    gap[0] = 0.0
+    laws = model.cohesion.laws
+    left_out = [n for n, law in enumerate(laws) if without and isinstance(law, without)]
+    counts = (paths.law[points] >= 0) & ~np.isin(paths.law[points], left_out)
+    stress = tractions_now(model, state)[points]
+    mean = 0.5 * (stress[1:] + stress[:-1]) * (counts[1:] & counts[:-1])[:, None]
+    return np.concatenate([[0.0], np.cumsum(lengths)]), np.diff(gap, axis=0), mean
 
 
 def _singular_integral(way, stress, inner, radius) -> float:
-    """Return sqrt(2/pi) times the integral of stress q/sqrt(r), from the tip to the radius.
+    """Return sqrt(2/pi) times the integral of stress q/sqrt(r) over pieces of a crack; r = u^2.
 
-    way: distances from the tip (m) at which the stress is known (Pa); with r = u^2
+    way: distances of their ends from the tip (n + 1,), m; stress: of each piece (n,), Pa
     """
     u = np.linspace(0.0, sqrt(radius), POINTS)
     q = np.array([weight(r, inner, radius)[0] for r in (u**2).tolist()])
-    return sqrt(2.0 / pi) * 2.0 * float(np.trapezoid(np.interp(u**2, way, stress) * q, u))
+    area = np.concatenate([[0.0], np.cumsum(0.5 * (q[1:] + q[:-1]) * np.diff(u))])
+    share = np.diff(np.interp(np.sqrt(way), u, area))
+    return sqrt(2.0 / pi) * 2.0 * float(stress @ share)

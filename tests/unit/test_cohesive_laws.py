@@ -128,7 +128,7 @@ def test_mixed_mode_parts_by_the_power_law(law, share):
     answers = follow(law, [way(law, share, d) for d in np.linspace(0.0, FAR, 150)])
     G_I, G_II = answers[:, 3:].sum(axis=0)
     assert answers[-1, 2] == 1.0
-    assert (G_I / 300.0) ** 1.5 + (G_II / 900.0) ** 1.5 == pytest.approx(1.0, rel=1e-9)
+    assert pytest.approx(1.0, rel=1e-9) == (G_I / 300.0) ** 1.5 + (G_II / 900.0) ** 1.5
 
 
 @pytest.mark.parametrize("name", ["triangular", "exponential", "trilinear"])

@@ -10,22 +10,22 @@ from cramp_cli.state.measures import cauchy_stress
 
 pytestmark = pytest.mark.verification
 WIDE, HIGH, MIDDLE, SPEED = 0.008, 0.008, 0.004, 0.02  # m, m, m, m/s
-BLOCK = f"""
+BLOCK = """
 cramp: 1
 analysis: plane_strain
 thickness: 2 mm
-grid: {{cell: 1 mm}}
-materials: {{m: {{law: elastic, density: 1000, E: 1 GPa, nu: 0}}}}
-bodies: [{{name: block, material: m,
-  shape: {{type: rectangle, lower: [0, 0], upper: [8 mm, 8 mm]}}}}]
+grid: {cell: 1 mm}
+materials: {m: {law: elastic, density: 1000, E: 1 GPa, nu: 0}}
+bodies: [{name: block, material: m,
+  shape: {type: rectangle, lower: [0, 0], upper: [8 mm, 8 mm]}}]
 cracks:
-  - {{name: cut, points: [[0, 4 mm], [8 mm, 4 mm]], start: edge, end: edge}}
+  - {name: cut, points: [[0, 4 mm], [8 mm, 4 mm]], start: edge, end: edge}
 boundary:
-  - {{name: foot, where: {{y: 0}}, fix: [x, y]}}
-solver: {{end_time: 1}}
+  - {name: foot, where: {y: 0}, fix: [x, y]}
+solver: {end_time: 1}
 """
-PULL = {"name": "head", "where": {"y": HIGH}, "velocity": [0.0, SPEED]}
-SHEAR = {"name": "head", "where": {"y": HIGH}, "velocity": [SPEED, 0.0]}
+PULL = {"name": "head", "where": {"y": HIGH}, "velocity": {"x": 0.0, "y": SPEED}}
+SHEAR = {"name": "head", "where": {"y": HIGH}, "velocity": {"x": SPEED, "y": 0.0}}
 FOOT = {"name": "foot", "where": {"y": 0.0}, "fix": ["x", "y"]}
 ENDS = {"normal": {"peak": 1e5, "toughness": 2.0}}
 KNEE = {"normal": {"openings": [4e-6, 1.2e-5, 6e-5], "stresses": [1e5, 4e4]}}
@@ -39,10 +39,14 @@ G_KNEE = 0.5 * (1e5 * 1.2e-5 + 4e4 * (6e-5 - 4e-6))
 EVERY_LAW = pytest.mark.parametrize("name", LAWS)
 
 
-def cut(law, *boundary, **more):
-    """Return the deck of a block whose halves hold together by a law."""
+def cut(law, *boundary, contact="ignore", **more):
+    """Return the deck of a block whose halves hold together by a law.
+
+    contact: without it nothing but the law acts; contact of blocks that slide on a row of nodes
+    begins to chatter by itself, without any law
+    """
     crack = {"name": "cut", "points": [[0.0, MIDDLE], [WIDE, MIDDLE]], "start": "edge"}
-    crack |= {"end": "edge", "traction": law, "contact": {"law": "frictional"}}
+    crack |= {"end": "edge", "traction": law, "contact": {"law": contact}}
     return {"cracks": [crack], "boundary": list(boundary) or [FOOT], **more}
 
 
@@ -75,7 +79,7 @@ ELASTIC = {"law": "elastic", "normal": STIFF, "shear": STIFF}
 
 
 @pytest.mark.parametrize(
-    ("traction", "component"), [([0.0, 1e4], 1), ([1e4, 0.0], 3)], ids=["opening", "sliding"]
+    ("traction", "component"), [([0.0, 1e4], 1), ([1e4, 0.0], 0)], ids=["opening", "sliding"]
 )
 def test_patch_of_two_blocks_with_elastic_faces(traction, component):
     """Uniform load: opening = stress/k, stress as in a whole block (nu = 0; the head is pulled).
@@ -84,7 +88,9 @@ def test_patch_of_two_blocks_with_elastic_faces(traction, component):
     """
     load = {"type": "traction", "body": "block", "where": {"y": HIGH}, "traction": traction}
     load["in_time"] = {"type": "ramp", "until": 1e-4}
-    deck = cut(ELASTIC, FOOT, loads=[load], solver={"damping": {"particle": 1e4}})
+    deck = cut(
+        ELASTIC, FOOT, contact="frictional", loads=[load], solver={"damping": {"particle": 1e4}}
+    )
     model, state, scratch = build_deck(BLOCK, **deck)
     advance(model, state, scratch, 6000)
     drawn, length = tractions_now(model, state), covered_lengths(state.paths)
