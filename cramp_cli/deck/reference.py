@@ -46,6 +46,9 @@ TITLES = {
     "Deck": "The deck",
     "VelocityOnPlane": "prescribed velocity",
     "EnergySection": "energy error",
+    "SofteningModeSection": "mode",
+    "ModeSection": "cubic mode",
+    "TrilinearModeSection": "trilinear mode",
 }
 HEAD = """# Decks
 
