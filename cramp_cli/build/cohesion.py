@@ -15,6 +15,7 @@ from cramp_cli.cohesive.triangular import Triangular
 from cramp_cli.cohesive.trilinear import Trilinear
 from cramp_cli.cracks.cohesion import Cohesion
 from cramp_cli.deck import cohesive as deck
+from cramp_cli.deck.deck import DeckError
 
 
 def build_cohesion(description, paths) -> Cohesion | None:
@@ -22,7 +23,7 @@ def build_cohesion(description, paths) -> Cohesion | None:
     sections = []
     for number, crack in enumerate(description.cracks):
         if crack.traction is not None:
-            _cover(paths, number, crack, len(sections))
+            _cover(description, paths, number, len(sections))
             sections.append(crack.traction)
     growth, grown = description.propagation, -1
     if growth is not None and growth.traction is not None:
@@ -34,14 +35,22 @@ def build_cohesion(description, paths) -> Cohesion | None:
     return Cohesion(laws, tuple(getattr(section, "in_time", None) for section in sections), grown)
 
 
-def _cover(paths, number, crack, law) -> None:
+def _cover(description, paths, number, law) -> None:
     """Give the points of a crack within its `traction_along` the number of its law."""
-    points = paths.crack(number)
+    crack, points = description.cracks[number], paths.crack(number)
     steps = np.hypot(*np.diff(paths.origin[points], axis=0).T)
     along = np.concatenate([[0.0], np.cumsum(steps)])
     low, high = crack.traction_along or (0.0, inf)
     slack = 1e-6 * crack.segment
-    paths.law[points] = np.where((along >= low - slack) & (along <= high + slack), law, -1)
+    if description.contact_of(crack).law == "glued":
+        message = "must not be given for faces that are glued: they never part"
+        raise DeckError([description.mistake(("cracks", number, "traction"), message)])
+    covered = (along >= low - slack) & (along <= high + slack)
+    if covered.sum() < 2:
+        path = ("cracks", number, "traction_along")
+        message = f"holds no piece of the crack; they are up to {crack.segment:.5g} m long"
+        raise DeckError([description.mistake(path, message)])
+    paths.law[points] = np.where(covered, law, -1)
 
 
 def largest_step(description) -> float:

@@ -120,7 +120,7 @@ class ExponentialSection(_Softening):
         4.0,
         ge=0.01,
         le=50,
-        description="how steep; the stress has fallen by exp(-decay) at the end",
+        description="how steep: before its end is shifted to 0 the curve falls by exp(-decay)",
     )
     power: Power = Field(1.0, description=POWER)
 

@@ -135,7 +135,17 @@ def test_a_crack_on_a_symmetry_plane_has_no_law():
         build_deck(DECK, **half)
 
 
-def test_a_law_covers_its_part(deck):
+def test_a_part_shorter_than_a_piece_is_a_mistake():
+    with pytest.raises(DeckError, match="holds no piece of the crack; they are up to 0.5 m long"):
+        build_deck(DECK, cracks=[_cut([2.1, 2.4])])
+
+
+def test_faces_that_are_glued_can_not_part():
+    with pytest.raises(DeckError, match="traction: must not be given for faces that are glued"):
+        build_deck(DECK, contact={"cracks": {"law": "glued"}})
+
+
+def test_a_law_covers_its_part():
     model, state, _ = build_deck(DECK, cracks=[_cut([2.0, 5.0])])
     assert covered_lengths(state.paths).sum() == pytest.approx(3.0, rel=1e-12)
     x = state.paths.origin[state.paths.law == 0, 0]
