@@ -6,6 +6,7 @@ from time import perf_counter
 
 import numpy as np
 
+from cramp_cli.cracks.cohesion import cohesive_energies, parted_points, tractions_now
 from cramp_cli.cracks.fields import find_rows, list_cracks
 from cramp_cli.cracks.grow import blind_tips, grow
 from cramp_cli.cracks.tips import sample_tips
@@ -74,25 +75,28 @@ class Books:
         self.error = 0.0
         self.warned = False
 
-    def row(self, state, dt) -> dict:
+    def row(self, model, state) -> dict:
         """Return the energies of a row of history.csv and keep the balance."""
         kinetic, stored, plastic = sum_energies(state.particles)
         books = state.books
         damping, friction = float(books.damping[0]), float(books.friction[0])
         fracture = float(books.fracture[0])
         work = float(books.external[0])
-        taken = friction + plastic + damping
-        spent = kinetic + stored + taken
-        self.largest = max(self.largest, kinetic + stored, abs(work), taken)
+        held, parting = cohesive_energies(model, state)
+        taken = friction + plastic + damping + parting
+        spent = kinetic + stored + held + taken
+        self.largest = max(self.largest, kinetic + stored + held, abs(work), taken)
         self.error = (spent - self.start - work) / self.largest if self.largest else 0.0
         total = momentum(state.particles)
         return {
             "step": state.step,
             "time": state.time,
-            "dt": dt,
+            "dt": model.dt,
             "kinetic_energy": kinetic,
             "strain_energy": stored,
             "fracture_energy": fracture,
+            "cohesive_stored": held,
+            "cohesive_energy": parting,
             "friction_energy": friction,
             "plastic_energy": plastic,
             "damping_energy": damping,
@@ -187,6 +191,8 @@ class _Run:
 
     def let_cracks_grow(self) -> None:
         """Let the cracks grow by what the step has loaded them to, and tell of it."""
+        if len(self.scratch.parted):
+            self.outputs.growth(parted_points(self.model, self.state, self.scratch))
         if self.model.propagation is not None:
             with self.watch("10 cracks grow"):
                 self.outputs.growth(grow(self.model, self.state, self.scratch))
@@ -263,7 +269,7 @@ class _Run:
     def _write(self, history_due, tips_due, frame_due) -> None:
         time = self.state.time
         if history_due(time) and self._first("history"):
-            books = self.books.row(self.state, self.model.dt)
+            books = self.books.row(self.model, self.state)
             self.outputs.history(books | self._reactions() | self._contact_forces())
             self.books.judge(self.state, self.reporter)
         if self.model.crack_names and tips_due(time) and self._first("tips"):
@@ -304,8 +310,11 @@ class _Run:
         if self.model.crack_names:
             paths = state.paths
             lines = [paths.point[paths.crack(c)] for c in range(paths.crack_count)]
-            opening = paths.above - paths.below
-            self.outputs.crack_frame(state.step, state.time, lines, {"opening": opening})
+            fields = {"opening": paths.above - paths.below}
+            if self.model.cohesion is not None:
+                traction = tractions_now(self.model, state)
+                fields |= {"traction": traction, "damage": paths.damage}
+            self.outputs.crack_frame(state.step, state.time, lines, fields)
 
     def _tell_strange_rows(self) -> None:
         """Say once when pairs of particle and node could not be told apart by the cracks."""

@@ -17,6 +17,7 @@ from cramp_cli.boundary.conditions import (
     repeat_images,
 )
 from cramp_cli.contact.bodies import find_pairs, move_rigid_bodies, touch_bodies
+from cramp_cli.cracks.cohesion import book_pressures, draw_faces
 from cramp_cli.cracks.contact import FIRST, LAST, UPDATE, touch
 from cramp_cli.cracks.fields import find_openings, find_rows, list_cracks, move_paths
 from cramp_cli.grid_velocity import find_strain_velocity, find_update_velocity
@@ -59,6 +60,7 @@ def step(model, state, scratch, watch) -> None:
     with watch("5 forces"):
         sums.sum_internal_force(model, state, scratch)
         add_loads(model, scratch, time)
+        draw_faces(model, state, scratch)
         reflect_forces(conditions, scratch, state)
 
     with watch("6 equation of motion in every velocity field"):
@@ -81,6 +83,7 @@ def step(model, state, scratch, watch) -> None:
                 grid, count, model.strides
             )  # of the first order, whatever moved the particles
             move_paths(model, state, scratch)
+            book_pressures(model, state, scratch)
 
     with watch("9 strain after the motion"):  # none of the step in USF, half in USAVG, all in USL
         if model.scheme.again:

@@ -7,6 +7,7 @@ from pathlib import Path
 import yaml
 
 from cramp_cli.build import build
+from cramp_cli.cracks.cohesion import cohesive_energies
 from cramp_cli.cracks.grow import grow
 from cramp_cli.cracks.tips import sample_tips
 from cramp_cli.deck.deck import check_deck
@@ -32,8 +33,21 @@ loads:
   - {type: gravity, acceleration: [0, 0]}
 solver: {end_time: 1}
 fracture: {contour: {terms: 2}}
-propagation: {criterion: steady_state, begin: 0, speed: {law: prescribed, value: 0.1}}
+propagation:
+  criterion: steady_state
+  begin: 0
+  speed: {law: prescribed, value: 0.1}
+  traction: {law: elastic, normal: 1}
 """
+ENDS = {"normal": {"peak": 1.0, "toughness": 1.0}}
+KNEE = {"normal": {"openings": [1.0, 2.0, 6.0], "stresses": [4.0, 1.0]}}
+TRACTIONS = (  # one with each of the settings
+    {"law": "triangular", **ENDS},
+    {"law": "exponential", **ENDS},
+    {"law": "cubic", **ENDS},
+    {"law": "trilinear", **KNEE},
+    {"law": "pressure", "value": 1.0},
+)
 SETTINGS = (
     ("plane_strain", "ugimp", "flip"),
     ("plane_strain", "ugimp", "fmpm(2)"),
@@ -45,8 +59,9 @@ SETTINGS = (
 
 def run_small_cases() -> None:
     """Take a step of a small cracked body with every kind of kernel."""
-    for analysis, shape, update in SETTINGS:
+    for (analysis, shape, update), traction in zip(SETTINGS, TRACTIONS, strict=True):
         data = yaml.safe_load(DECK)
+        data["cracks"][0]["traction"] = traction
         data["analysis"] = analysis
         data["solver"] |= {"shape": shape, "update": update}
         model, state = build(check_deck(Source("warm-up", DECK, data), Path()))
@@ -56,4 +71,5 @@ def run_small_cases() -> None:
             grow(model, state, scratch)
         sample_tips(model, state, scratch)
         sum_energies(state.particles)
+        cohesive_energies(model, state)
         check_health(model, state)

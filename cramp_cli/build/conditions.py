@@ -141,6 +141,9 @@ class _Builder:
     def _no_contact(self, crack):
         """A crack on a symmetry plane has one side only: nothing there could press on it."""
         section = self.deck.cracks[crack]
+        if section.traction is not None:
+            message = "a crack on a symmetry plane can have none: model both halves"
+            self.wrong(("cracks", crack, "traction"), message)
         law = self.deck.contact_of(section).law
         if law != "ignore":
             path = ("cracks", crack, "contact") if section.contact else ("cracks", crack)

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from cramp_cli.build.cohesion import build_cohesion, largest_step
 from cramp_cli.build.conditions import build_conditions
 from cramp_cli.build.contact import build_body_contact, build_crack_laws, build_groups
 from cramp_cli.build.growth import build_propagation
@@ -67,6 +68,7 @@ def build(deck: Deck) -> tuple[Model, State]:
             terms=settings.contour.terms,
             obstacles=obstacles,
         ),
+        cohesion=build_cohesion(deck, paths),
         propagation=build_propagation(deck, blocks, geometry),
     )
     reactions = np.zeros((len(conditions.names), len(lattice.cells)))
@@ -91,10 +93,10 @@ def build_lattice(deck: Deck) -> Lattice:
 
 
 def time_step(deck: Deck) -> float:
-    """Return the time step (s): the Courant condition of the fastest wave, or the deck's limit."""
+    """Return the time step (s): that of the fastest wave or the stiffest faces, or the deck's."""
     used = {body.material for body in deck.bodies if body.material}
     speeds = [wave_speed(deck.materials[name]) for name in used]
-    step = deck.solver.cfl * deck.grid.cell / max(speeds)
+    step = deck.solver.cfl * min(deck.grid.cell / max(speeds), largest_step(deck))
     step = min(step, deck.solver.dt or step)
     if deck.solver.end_time / step > MOST_STEPS:
         key = "cfl" if deck.solver.dt is None else "dt"

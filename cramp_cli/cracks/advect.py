@@ -1,5 +1,8 @@
 """Cracks move with the solid: each surface with the rows of its side, the plane with their mean."""
 
+from math import inf
+from typing import NamedTuple
+
 import numpy as np
 
 from cramp_cli.cracks.crossing import ON_CRACK, crossed_cracks
@@ -7,6 +10,7 @@ from cramp_cli.cracks.rows import find_row, of_group
 from cramp_cli.numerics.kernel import kernel
 
 OFF_PLANE = 1e-4  # a surface looks at the nodes from this distance off the plane (cells)
+LIGHT = 0.1  # rows of less than this share of the heaviest one around count less in even weights
 LARGEST_STEP = 0.5  # a surface that would move further in one step (cells) stays
 
 
@@ -62,22 +66,37 @@ def surface_rows(rows, segments, of_crack, crack, side, node, cell, qx, qy, nx, 
     return mine, facing if facing != mine else -1
 
 
-@kernel
-def surface_motion(
-    grid, rows, segments, of_crack, crack, side, cut, q, x, cells, width, lower, strides
-):
-    """Return mass seen, velocity and acceleration of one surface at x (linear functions).
+class Seen(NamedTuple):
+    """What the point of a surface sees: room for two rows of each of the four nodes around it."""
 
+    row: np.ndarray  # (8,)
+    weight: np.ndarray  # (8,) what the row counts
+    mass: np.ndarray  # (8,) what it is weighed by (kg)
+
+
+def make_seen() -> Seen:
+    """Return room for what a point sees."""
+    return Seen(np.zeros(8, dtype=np.int64), np.zeros(8), np.zeros(8))
+
+
+@kernel
+def look_around(
+    seen, even, mass, rows, segments, of_crack, crack, side, cut, q, x, cells, width, lower, strides
+):
+    """Find the rows that a surface sees at x; return their number and the sum of the weights.
+
+    even: rows count by their linear functions, as a stress on a surface wants it, light rows less;
+    else by their masses as well
+    q: x off the crack, on the side of the surface
     cut: share of the crack at x, as of a particle there (tip_nodes.py)
     """
-    mass, velocity, acceleration = grid.mass, grid.velocity, grid.acceleration
     rx, ry = (x[0] - lower[0]) / width, (x[1] - lower[1]) / width
     i0 = min(max(int(np.floor(rx)), 0), cells[0] - 1)
     j0 = min(max(int(np.floor(ry)), 0), cells[1] - 1)
     qi = min(max(int(np.floor((q[0] - lower[0]) / width)), 0), cells[0] - 1)
     qj = min(max(int(np.floor((q[1] - lower[1]) / width)), 0), cells[1] - 1)
     cell = qi * strides[0] + qj * strides[1]
-    total, vx, vy, ax, ay = 0.0, 0.0, 0.0, 0.0, 0.0
+    count, heaviest = 0, 0.0
     for j in range(2):
         for i in range(2):
             node = (i0 + i) * strides[0] + (j0 + j) * strides[1]
@@ -102,19 +121,59 @@ def surface_motion(
             if near + far <= 0.0:
                 continue
             # as a particle there: the share of the side, and of the mean of both sides
-            part, both = near / (near + far), S * (near + (1.0 - cut) * far)
-            for row, share in (
-                (mine, cut + (1.0 - cut) * part),
-                (facing, (1.0 - cut) * (1.0 - part)),
-            ):
-                if row < 0 or share == 0.0:
-                    continue
-                w = both * share
-                total += w
-                vx += w * velocity[row, 0]
-                vy += w * velocity[row, 1]
-                ax += w * acceleration[row, 0]
-                ay += w * acceleration[row, 1]
+            own, felt = cut + (1.0 - cut) * near / (near + far), near + (1.0 - cut) * far
+            for row, share in ((mine, own), (facing, 1.0 - own)):
+                if row >= 0 and share > 0.0:
+                    seen.row[count], seen.weight[count], seen.mass[count] = row, S * share, felt
+                    heaviest = max(heaviest, felt)
+                    count += 1
+    return count, weigh(seen, count, LIGHT * heaviest if even else inf)
+
+
+@kernel
+def weigh(seen, count, enough):
+    """Weigh rows by mass up to what is `enough` (kg); by all of it if that is infinite.
+
+    returns: the sum of the weights
+    """
+    total = 0.0
+    for e in range(count):
+        m = seen.mass[e]
+        seen.weight[e] *= m if enough == inf else min(m / enough, 1.0)
+        total += seen.weight[e]
+    return total
+
+
+@kernel
+def surface_motion(
+    seen,
+    even,
+    grid,
+    rows,
+    segments,
+    of_crack,
+    crack,
+    side,
+    cut,
+    q,
+    x,
+    cells,
+    width,
+    lower,
+    strides,
+):
+    """Return mass seen, velocity and acceleration of one surface at x (look_around)."""
+    velocity, acceleration = grid.velocity, grid.acceleration
+    who = (rows, segments, of_crack, crack, side, cut)
+    place = (q, x, cells, width, lower, strides)
+    count, total = look_around(seen, even, grid.mass, *who, *place)
+    vx, vy, ax, ay = 0.0, 0.0, 0.0, 0.0
+    for e in range(count):
+        row, w = seen.row[e], seen.weight[e]
+        vx += w * velocity[row, 0]
+        vy += w * velocity[row, 1]
+        ax += w * acceleration[row, 0]
+        ay += w * acceleration[row, 1]
     if total > 0.0:
         return total, vx / total, vy / total, ax / total, ay / total
     return 0.0, 0.0, 0.0, 0.0, 0.0
@@ -139,22 +198,37 @@ def surface_step(surface, old, k, seen, v, a, width, dt):
 
 @kernel
 def move_surface(
-    paths, grid, rows, segments, of_crack, crack, side, cut, k, q, cells, width, lower, strides, dt
+    seen,
+    paths,
+    grid,
+    rows,
+    segments,
+    of_crack,
+    crack,
+    side,
+    cut,
+    k,
+    q,
+    cells,
+    width,
+    lower,
+    strides,
+    dt,
 ):
     """Move point k of one surface with the rows of its side; return whether, and by how much."""
     surface = paths.above if side > 0 else paths.below
     old = paths.above_velocity if side > 0 else paths.below_velocity
     x = (surface[k, 0], surface[k, 1])
-    seen, vx, vy, ax, ay = surface_motion(
-        grid, rows, segments, of_crack, crack, side, cut, q, x, cells, width, lower, strides
-    )
-    return surface_step(surface, old, k, seen, (vx, vy), (ax, ay), width, dt)
+    who, place = (rows, segments, of_crack, crack, side, cut), (q, x, cells, width, lower, strides)
+    mass, vx, vy, ax, ay = surface_motion(seen, paths.law[k] >= 0, grid, *who, *place)
+    return surface_step(surface, old, k, mass, (vx, vy), (ax, ay), width, dt)
 
 
 @kernel
-def move_cracks(paths, cut, grid, rows, segments, of_crack, cells, width, lower, strides, dt):
+def move_cracks(seen, paths, cut, grid, rows, segments, of_crack, cells, width, lower, strides, dt):
     """Move all surfaces and planes of cracks by one step.
 
+    seen: room for what a point sees
     cut: (points,) share of the crack at each point, below 1 beside smooth tips; of_crack: contact
     group of the bodies that each crack cuts
 
@@ -167,6 +241,7 @@ def move_cracks(paths, cut, grid, rows, segments, of_crack, cells, width, lower,
             continue
         first, last = paths.start[c], paths.start[c + 1] - 1
         axis, body = paths.mirror[c, 0], paths.mirror[c, 1]
+        who, place = (grid, rows, segments, of_crack, c), (cells, width, lower, strides, dt)
         for k in range(first, last + 1):
             n = side_normal(point, k, first, last)
             off = OFF_PLANE * width
@@ -174,42 +249,10 @@ def move_cracks(paths, cut, grid, rows, segments, of_crack, cells, width, lower,
             ax, ay, bx, by = 0.0, 0.0, 0.0, 0.0
             if axis < 0 or body > 0:
                 q = (point[k, 0] + off * n[0], point[k, 1] + off * n[1])
-                up, ax, ay = move_surface(
-                    paths,
-                    grid,
-                    rows,
-                    segments,
-                    of_crack,
-                    c,
-                    1,
-                    cut[k],
-                    k,
-                    q,
-                    cells,
-                    width,
-                    lower,
-                    strides,
-                    dt,
-                )
+                up, ax, ay = move_surface(seen, paths, *who, 1, cut[k], k, q, *place)
             if axis < 0 or body < 0:
                 q = (point[k, 0] - off * n[0], point[k, 1] - off * n[1])
-                down, bx, by = move_surface(
-                    paths,
-                    grid,
-                    rows,
-                    segments,
-                    of_crack,
-                    c,
-                    -1,
-                    cut[k],
-                    k,
-                    q,
-                    cells,
-                    width,
-                    lower,
-                    strides,
-                    dt,
-                )
+                down, bx, by = move_surface(seen, paths, *who, -1, cut[k], k, q, *place)
             flip_x, flip_y = -1.0 if axis == 0 else 1.0, -1.0 if axis == 1 else 1.0
             if up and not down:
                 bx, by = flip_x * ax, flip_y * ay

@@ -45,7 +45,7 @@ def doubts(model, site, row, moving: bool) -> list[str]:
 
 def _contradictions(row, stiffness, noise) -> list[str]:
     """J that is not that of K: no crack has such a field. A contour far from a domain."""
-    J, of_K = row["J"], (row["K_I"] ** 2 + row["K_II"] ** 2) / stiffness
+    J, of_K = row["J_tip"], (row["K_I"] ** 2 + row["K_II"] ** 2) / stiffness
     texts = {
         "doubtful: J and that of K differ by {:.0f} %": (J, of_K),
         "contour doubtful: {:.0f} % from the domain": (J, row["J_contour"]),

@@ -8,7 +8,10 @@ import numpy as np
 from cramp_cli.cracks.crossing import make_segments
 from cramp_cli.state.paths import Paths
 
-FIELDS = ("point", "origin", "above", "below", "above_velocity", "below_velocity")
+FIELDS = (
+    *("point", "origin", "above", "below", "above_velocity", "below_velocity"),
+    *("law", "damage", "spent"),
+)
 
 
 def end_point(paths: Paths, crack: int, end: int) -> int:
@@ -35,6 +38,16 @@ def move_end(paths: Paths, crack: int, end: int, before, now) -> None:
     paths.origin[at] += before
     for field in (paths.point, paths.above, paths.below):
         field[at] = place
+
+
+def cover_end(paths: Paths, crack: int, end: int, law: int) -> None:
+    """Give the piece that begins at the end of a crack a traction law; -1: that of the end."""
+    at = end_point(paths, crack, end)
+    behind = at - 1 if end else at + 1
+    if law >= 0:
+        paths.law[at] = law
+        if paths.law[behind] < 0:
+            paths.law[behind] = law
 
 
 def make_room(paths: Paths, segments, node_count: int):

@@ -1,19 +1,24 @@
-"""What closed faces that rub add to the integrals around a tip.
+"""What the stresses on the faces of a crack add to the integrals around its tip.
 
-The domain integral of free faces takes the work of friction for a load on the tip. The face term of
-the interaction integral, the integral of t_i U_i,1 q over both faces, takes it out again. Faces of
-the asymptotic field of sliding are (kappa + 1)/mu sqrt(r / (2 pi)) apart at r behind the tip, so
+The integrals over the domain take all that acts on the faces for a load on the tip. The face terms,
+integrals along both faces, take it out again:
 
-    K_II = (sum over the domain) - sqrt(2/pi) integral of tau(r) q(r) / sqrt(r) dr
+    J      = (sum over the domain) - integral of q T_i d(gap_i)
+    K_I    = (sum) - sqrt(2/pi) integral of sigma(r) q(r) / sqrt(r) dr
+    K_II   = (sum) - sqrt(2/pi) integral of tau(r) q(r) / sqrt(r) dr
 
-with the shear stress tau that the faces carry. Pressure has a like term in K_I, which is zero on
-closed faces anyway.
+T, sigma, tau: what the faces give each other, positive where they draw each other back. In K the
+gap is that of the asymptotic field of its mode, (kappa + 1)/mu sqrt(r / (2 pi)) at r behind the
+tip. Rubbing faces have no term in K_I, which is zero there, and none in J, which keeps the work of
+friction.
 """
 
 from math import inf, pi, sqrt
 
 import numpy as np
 
+from cramp_cli.cohesive.pressure import Pressure
+from cramp_cli.cracks.cohesion import tractions_now
 from cramp_cli.cracks.contact import FRICTIONAL
 from cramp_cli.cracks.domain_integral import beside_crack, weight
 
@@ -35,11 +40,68 @@ def rubbed_off(model, site, crack, inner, radius) -> float:
     shear, pressure = sums[1] / sums[0], max(-sums[2] / sums[0], 0.0)
     sliding = model.contact.kind[crack] == FRICTIONAL
     limit = model.contact.mu[crack] * pressure if sliding else inf
-    return sqrt(2.0 / pi) * min(max(shear, -limit), limit) * _integral_of_root(inner, radius)
+    stress = min(max(shear, -limit), limit)
+    return _singular_integral(np.array([0.0, radius]), np.array([stress]), inner, radius)
 
 
-def _integral_of_root(inner, radius) -> float:
-    """Return the integral of q(r) / sqrt(r) from the tip to the radius (sqrt(m)), with r = u^2."""
+def drawn(model, state, tip, now, inner, radius) -> np.ndarray:
+    """Return what traction laws add to the sums for J, K_I and K_II of a tip.
+
+    now: unit vector out of the crack at the tip, in the body of now
+    """
+    if model.cohesion is None:
+        return np.zeros(3)
+    way, step, traction = _pieces(model, state, tip)
+    middle = 0.5 * (way[1:] + way[:-1])
+    q = np.array([weight(r, inner, radius)[0] if r < radius else 0.0 for r in middle.tolist()])
+    J = float(q @ np.sum(traction * step, axis=1))
+    (ex, ey), side = now, 2 * tip.end - 1
+    normal, along = side * (traction @ (-ey, ex)), side * (traction @ (ex, ey))
+    return np.array(
+        [J, *(_singular_integral(way, stress, inner, radius) for stress in (normal, along))]
+    )
+
+
+def zone_energy(model, state, tip) -> float:
+    """Return J of the cohesive zone of a tip: the integral of T_i d(gap_i) behind it (J/m^2).
+
+    It reaches to the largest opening: beyond, a zone belongs to the other tip. Pressures have none.
+    """
+    if model.cohesion is None:
+        return 0.0
+    _, step, traction = _pieces(model, state, tip, without=Pressure)
+    widest = int(np.argmax(np.hypot(*np.cumsum(step, axis=0).T))) + 1
+    return float(np.sum(traction[:widest] * step[:widest]))
+
+
+def _pieces(model, state, tip, without=()):
+    """Return the pieces of a crack as they follow each other from its tip.
+
+    The tip is closed: the part of a cell ahead of it in which a smooth tip opens counts behind it.
+
+    without: kind of law that is left out
+    returns: distances of their ends from the tip (n + 1,), m; step of the gap from end to end
+    (n, 2), m; mean traction (n, 2), Pa, none where a law covers not both ends
+    """
+    paths, points = state.paths, tip.points
+    lengths = np.hypot(*np.diff(paths.origin[points], axis=0).T)
+    gap = (paths.above - paths.below)[points]
+    gap[0] = 0.0
+    laws = model.cohesion.laws
+    left_out = [n for n, law in enumerate(laws) if without and isinstance(law, without)]
+    counts = (paths.law[points] >= 0) & ~np.isin(paths.law[points], left_out)
+    stress = tractions_now(model, state)[points]
+    mean = 0.5 * (stress[1:] + stress[:-1]) * (counts[1:] & counts[:-1])[:, None]
+    return np.concatenate([[0.0], np.cumsum(lengths)]), np.diff(gap, axis=0), mean
+
+
+def _singular_integral(way, stress, inner, radius) -> float:
+    """Return sqrt(2/pi) times the integral of stress q/sqrt(r) over pieces of a crack; r = u^2.
+
+    way: distances of their ends from the tip (n + 1,), m; stress: of each piece (n,), Pa
+    """
     u = np.linspace(0.0, sqrt(radius), POINTS)
     q = np.array([weight(r, inner, radius)[0] for r in (u**2).tolist()])
-    return 2.0 * float(np.trapezoid(q, u))
+    area = np.concatenate([[0.0], np.cumsum(0.5 * (q[1:] + q[:-1]) * np.diff(u))])
+    share = np.diff(np.interp(np.sqrt(way), u, area))
+    return sqrt(2.0 / pi) * 2.0 * float(stress @ share)

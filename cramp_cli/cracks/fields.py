@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from cramp_cli.cracks.advect import move_cracks
+from cramp_cli.cracks.advect import make_seen, move_cracks
 from cramp_cli.cracks.contact import GLUED, sum_displacement
 from cramp_cli.cracks.crossing import list_segments, make_segments
 from cramp_cli.cracks.meetings import list_meeting_particles, mark_groups
@@ -111,15 +111,22 @@ def find_openings(model, state, scratch) -> None:
         )
 
 
+def cut_of_points(model, paths) -> np.ndarray:
+    """Return the share of the crack at each point (points,): below 1 beside smooth tips."""
+    cut = np.ones(len(paths.point))
+    if model.tip_nodes is not None:
+        smooth = smooth_cracks(model)
+        cut_along_cracks(cut, paths, smooth, model.lattice.width, *model.tip_nodes)
+    return cut
+
+
 def move_paths(model, state, scratch) -> None:
     """Move all cracks with the solid."""
-    lattice, paths, tips = model.lattice, state.paths, model.tip_nodes
-    cut = np.ones(len(paths.point))
-    if tips is not None:
-        cut_along_cracks(cut, paths, smooth_cracks(model), lattice.width, *tips)
+    lattice, paths = model.lattice, state.paths
     move_cracks(
+        make_seen(),
         paths,
-        cut,
+        cut_of_points(model, paths),
         scratch.grid,
         scratch.rows,
         scratch.segments,

@@ -12,7 +12,7 @@ import numpy as np
 
 from cramp_cli.cracks.criteria.directions import GIVEN, OWN, turn_by
 from cramp_cli.cracks.criteria.load import Load
-from cramp_cli.cracks.extend import add_point, end_point, make_room, move_end
+from cramp_cli.cracks.extend import add_point, cover_end, end_point, make_room, move_end
 from cramp_cli.cracks.intensity import open_and_slide, opening_near_tip
 from cramp_cli.cracks.meeting import first_met, has_left_body, leave_body, stay_on_grid
 from cramp_cli.cracks.speed import Pull
@@ -197,6 +197,8 @@ def _begin_piece(model, state, scratch, tip, load, criterion, now) -> tuple:
     growth.heading[k] = turned(heading, turn)
     growth.piece[k], growth.mean[k] = 0.0, 0.0
     state.paths = add_point(state.paths, tip.crack, tip.end)
+    if model.cohesion is not None:
+        cover_end(state.paths, tip.crack, tip.end, model.cohesion.grown)
     scratch.segments = make_room(state.paths, scratch.segments, model.lattice.node_count)
     return turned(now, turn)
 

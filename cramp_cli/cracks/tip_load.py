@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from cramp_cli.cracks.domain_integral import inner_radius
-from cramp_cli.cracks.face_terms import rubbed_off
+from cramp_cli.cracks.face_terms import drawn, rubbed_off
 from cramp_cli.cracks.kink import LARGEST, kinked
 from cramp_cli.cracks.moving_tip import integrate_flux, mean_velocity
 from cramp_cli.cracks.room import find_room
@@ -76,9 +76,11 @@ def _own_load(model, state, scratch, tip, site, kink):
         if not spoiled:
             if state.growth.length[line_of(tip)] > 0.0:
                 J = flux_into_tip(model, site, inner_radius(radius, width), radius)
+            inner, now = inner_radius(radius, width), site.frame.now
+            own = np.array([J, K_I, K_II]) - drawn(model, state, tip, now, inner, radius)
+            J, K_I, K_II = own.tolist()
             here = state.paths.point[tip.points[0]]
             if is_closed(model, scratch, tip.crack, here, radius, K_I):
-                inner = inner_radius(radius, width)
                 K_I, K_II = 0.0, K_II - rubbed_off(model, site, tip.crack, inner, radius)
             return J, K_I, K_II
         radius *= 0.9

@@ -25,7 +25,7 @@ from cramp_cli.cracks.domain_integral import (
     material_beside,
 )
 from cramp_cli.cracks.doubts import doubts
-from cramp_cli.cracks.face_terms import rubbed_off
+from cramp_cli.cracks.face_terms import drawn, rubbed_off, zone_energy
 from cramp_cli.cracks.intensity import K_from_J, open_and_slide, opening_near_tip
 from cramp_cli.cracks.room import find_room
 from cramp_cli.materials.geometry import is_plane_stress
@@ -118,7 +118,7 @@ def _sample(model, state, scratch, tip) -> dict:
         "ctod_n": normal,
         "ctod_t": slide,
     }
-    unmeasured = {"J": nan, "K_I": nan, "K_II": nan, "J_spread": nan}
+    unmeasured = {"J_tip": nan, "J_zone": nan, "J": nan, "K_I": nan, "K_II": nan, "J_spread": nan}
     row |= unmeasured | {"J_contour": nan, "K_I_contour": nan, "K_II_contour": nan}
     remarks, grown = [], state.growth.length[2 * tip.crack + tip.end] > 0.0
     if "domain" in model.fracture.methods:
@@ -214,6 +214,8 @@ def hooke_of(law, geometry) -> Hooke:
 def _measure_contour(model, state, scratch, tip, site, normal, slide):
     if site.half:
         return {}, "contour invalid: the crack lies on a symmetry plane"
+    if model.cohesion is not None and np.any(state.paths.law[tip.points] >= 0):
+        return {}, "contour invalid: stresses act on the faces"
     place = state.paths.point[tip.points[0]]
     contour = integrate_contour(model, state, scratch, tip.crack, place, site.block, site.gravity)
     if contour.trouble:
@@ -227,7 +229,14 @@ def _recall_growth(model, state, scratch, tip, site):
     """A tip that has grown has the load that drove it in the last step (tip_load.py)."""
     k = 2 * tip.crack + tip.end
     J, K_I, K_II = state.growth.load[k].tolist()
-    return {"J": J, "K_I": K_I, "K_II": K_II}, STAGES.get(int(state.growth.stage[k]), "")
+    measured = _with_zone(model, state, tip, J) | {"K_I": K_I, "K_II": K_II}
+    return measured, STAGES.get(int(state.growth.stage[k]), "")
+
+
+def _with_zone(model, state, tip, J) -> dict:
+    """Return J of a tip, of the cohesive zone behind it, and of both together."""
+    zone = zone_energy(model, state, tip)
+    return {"J_tip": J, "J_zone": zone, "J": J + zone}
 
 
 def _measure_domain(model, state, scratch, tip, site):
@@ -239,7 +248,7 @@ def _measure_domain(model, state, scratch, tip, site):
     radius, remark = (room, what) if room < wanted else (wanted, "")
     measured = None
     while radius >= least and measured is None:
-        *values, spoiled = domain_values(model, site, radius)
+        *values, spoiled = tip_values(model, state, site, tip, radius)
         if spoiled:
             radius, remark = 0.9 * radius, spoiled
         else:
@@ -248,13 +257,14 @@ def _measure_domain(model, state, scratch, tip, site):
         return {}, f"invalid: {remark} is nearer than {wanted / width:.3g} cells"
     J, K_I, K_II = measured
     others = [r for r in radii[1:] or [s * radius for s in SPREAD] if r <= room]
-    spread = _spread(J, [domain_values(model, site, r) for r in others])
+    spread = _spread(J, [tip_values(model, state, site, tip, r) for r in others])
     status = f"shrunk: {remark} within {wanted / width:.3g} cells" if remark else ""
     here, inner = paths.point[tip.points[0]], inner_radius(radius, width)
     if is_closed(model, scratch, tip.crack, here, radius, K_I):
         K_I, status = 0.0, "; ".join(filter(None, ["closed", status]))
         K_II -= rubbed_off(model, site, tip.crack, inner, radius)
-    return {"J": J, "K_I": K_I, "K_II": K_II, "J_spread": spread}, status
+    values = {"K_I": K_I, "K_II": K_II, "J_spread": spread}
+    return _with_zone(model, state, tip, J) | values, status
 
 
 def _spread(J, others) -> float:
@@ -263,6 +273,14 @@ def _spread(J, others) -> float:
     if not values:
         return nan
     return (max(*values, J) - min(*values, J)) / abs(J) if J else 0.0
+
+
+def tip_values(model, state, site, tip, radius):
+    """Return J, K_I, K_II of a tip without what its faces carry, and what spoils the domain."""
+    *values, spoiled = domain_values(model, site, radius)
+    inner = inner_radius(radius, model.lattice.width)
+    own = np.array(values) - drawn(model, state, tip, site.frame.now, inner, radius)
+    return *own.tolist(), spoiled
 
 
 def domain_values(model, site, radius, inner=None):

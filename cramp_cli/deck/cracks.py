@@ -8,6 +8,7 @@ from typing import Literal
 
 from pydantic import Field
 
+from cramp_cli.deck.cohesive import AnyTraction
 from cramp_cli.deck.contact import AnyContact
 from cramp_cli.deck.points import read_into
 from cramp_cli.schema.section import Name, Section, Wrong, only_one
@@ -62,6 +63,12 @@ class CrackSection(Section):
     contact: AnyContact | None = Field(
         None, description="contact of its faces; that of `contact` if not given"
     )
+    traction: AnyTraction | None = Field(
+        None, description="traction law between its faces; none if not given"
+    )
+    traction_along: pair(Length) | None = Field(
+        None, description="part with the law: from and to, along the line from its start"
+    )
     motion: Literal["free", "fixed"] = Field(
         "free", description="whether the line moves with the solid"
     )
@@ -86,6 +93,23 @@ class CrackSection(Section):
             yield ("points",), f"must have at least 2 different points (got {count})"
         elif self.arc is not None and len(self.corners) < 2:
             yield ("arc",), "is too small beside its coordinates"
+        else:
+            yield from self._wrong_traction()
+
+    def _wrong_traction(self) -> Iterator[Wrong]:
+        """Openings are known where faces move; the part lies on the crack."""
+        law, part = self.traction, self.traction_along
+        if law is not None and law.law != "pressure" and self.motion == "fixed":
+            message = f"traction: {{law: {law.law}}} needs the opening of faces that move"
+            yield ("motion",), f"must be free: {message} (got 'fixed')"
+        if part is None:
+            return
+        if law is None:
+            yield ("traction_along",), "goes with traction only"
+        if not 0.0 <= part[0] < part[1] or part[0] >= self.length:
+            limits = f"0 <= from < to, from below the length of the crack, {self.length:g} m"
+            got = f"got {part[0]:g} m, {part[1]:g} m"
+            yield ("traction_along",), f"must be {limits} ({got})"
 
     @cached_property
     def corners(self) -> tuple[tuple[float, float], ...]:

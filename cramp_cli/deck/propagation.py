@@ -6,6 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
+from cramp_cli.deck.cohesive import AnyTraction
 from cramp_cli.schema.section import Name, Section, Wrong, one_of
 from cramp_cli.schema.units import Length, Number, Time, Velocity, pair, shown
 
@@ -93,6 +94,10 @@ class PropagationSection(Section):
     )
     cracks: tuple[Name, ...] | None = Field(
         None, min_length=1, description="names of the cracks that may grow; all if not given"
+    )
+    traction: AnyTraction | None = Field(
+        None,
+        description="traction law between the new faces; that of the end of the crack if not given",
     )
     p: Number | None = Field(
         None, gt=0, le=100, description="exponent of K_I/K_Ic in `criterion: empirical`; 2"

@@ -22,6 +22,7 @@ SELDOM = {Span: "length (m), or [low, high]", Radii: "length (m), or a list of l
 LATER = {
     ("CrackSection", "segment"): "half a cell",
     ("CrackSection", "contact"): "`contact.cracks`",
+    ("SofteningModeSection", "stiffness"): "5 peak / opening",
     ("FractureSection", "every"): "`output.every`",
     ("FractureSection", "radius"): "chosen by the program",
     ("OutputSection", "every"): "`solver.end_time` / 100",
@@ -35,6 +36,7 @@ FAMILIES = {
     "curve": "curve",
     "loads": "load",
     "cracks": "contact law",
+    "cohesive": "traction law",
     "materials": "material",
     "anisotropic": "material",
     "hardening": "hardening",
@@ -44,6 +46,9 @@ TITLES = {
     "Deck": "The deck",
     "VelocityOnPlane": "prescribed velocity",
     "EnergySection": "energy error",
+    "SofteningModeSection": "mode",
+    "ModeSection": "cubic mode",
+    "TrilinearModeSection": "trilinear mode",
 }
 HEAD = """# Decks
 

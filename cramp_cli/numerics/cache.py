@@ -14,6 +14,7 @@ from pathlib import Path
 PACKAGE = Path(__file__).resolve().parent.parent
 WITH_KERNELS = (
     "boundary",
+    "cohesive",
     "contact",
     "cracks",
     "materials",

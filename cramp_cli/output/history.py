@@ -22,6 +22,8 @@ HISTORY_COLUMNS = {
         "J",
         "sum of J da of all growth; not part of energy_error (theory: growth)",
     ),
+    "cohesive_stored": ("J", "energy that traction laws of crack faces would give back"),
+    "cohesive_energy": ("J", "energy that traction laws of crack faces have dissipated"),
     "friction_energy": ("J", "energy spent by friction of crack faces and bodies"),
     "plastic_energy": ("J", "energy spent in plastic and viscous strain"),
     "damping_energy": (
@@ -49,7 +51,7 @@ CRACK_COLUMNS = {
     "angle": ("rad", "direction in which the crack points at the tip, from the x axis"),
     "length": ("m", "length of the whole crack"),
     "speed": ("m/s", "speed of growth of this tip"),
-    "J": ("J/m^2", "J integral over a domain, energy release rate of the tip"),
+    "J": ("J/m^2", "J integral over a domain; with a cohesive zone J_tip + J_zone"),
     "K_I": ("Pa*m^0.5", "stress intensity of opening"),
     "K_II": ("Pa*m^0.5", "stress intensity of sliding in the plane"),
     "K_III": ("Pa*m^0.5", "stress intensity of sliding out of the plane"),
@@ -59,6 +61,8 @@ CRACK_COLUMNS = {
     "K_I_contour": ("Pa*m^0.5", "K_I from J_contour and the opening of the faces"),
     "K_II_contour": ("Pa*m^0.5", "K_II from J_contour and the opening of the faces"),
     "J_spread": ("1", "largest less smallest J of several domains, over J"),
+    "J_tip": ("J/m^2", "energy release rate of the tip alone"),
+    "J_zone": ("J/m^2", "energy release rate that a cohesive zone behind the tip takes"),
     "status": ("", "ok, shrunk, closed, or invalid and why"),
 }
 
@@ -72,10 +76,11 @@ GROWTH_COLUMNS = {
     "y": ("m", "position of the tip after the event"),
     "angle": ("rad", "direction of the new piece, from the x axis"),
     "length": ("m", "length of the whole crack after the event"),
-    "J": ("J/m^2", "energy release rate that drove the event"),
+    "J": ("J/m^2", "energy release rate that drove the event; of a debonded point its energy"),
     "K_I": ("Pa*m^0.5", "stress intensity of opening before the event"),
     "K_II": ("Pa*m^0.5", "stress intensity of sliding before the event"),
     "energy": ("J", "energy spent on the new surface"),
+    "mode_I": ("1", "share of opening in the energy of a debonded point"),
 }
 
 

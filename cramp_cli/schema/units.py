@@ -138,6 +138,7 @@ Temperature = Annotated[float, Quantity("temperature", "K", "293 K")]
 SpecificHeat = Annotated[float, Quantity("specific heat", "J/(kg*K)", "385 J/(kg*K)")]
 Density = Annotated[float, Quantity("density", "kg/m^3", "1.2 g/cm^3")]
 EnergyToughness = Annotated[float, Quantity("energy per area", "J/m^2", "300 J/m^2")]
+InterfaceStiffness = Annotated[float, Quantity("stiffness of faces", "Pa/m", "10 GPa/mm")]
 StressIntensity = Annotated[float, Quantity("stress intensity", "Pa*m^0.5", "1.5 MPa*m^0.5")]
 
 

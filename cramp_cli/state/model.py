@@ -76,6 +76,7 @@ class Model:
     groups: Groups  # which bodies share their rows
     between_bodies: Any = None  # BodyContact; None: all bodies are glued
     fracture: Any = None  # how J and K are evaluated
+    cohesion: Any = None  # traction laws of crack faces; None: there are none
     propagation: Any = None  # when, where to and how fast cracks grow; None: they do not
     leaving: str = "error"  # what particles that leave the grid are: transfer/leaving.py
     tip_nodes: TipNodes | None = None  # None: cut at once, by the line test alone (the paper)
@@ -119,6 +120,8 @@ class Scratch:
     remarks: list = field(default_factory=list)  # what a user should be told of this step
     free: list | None = None  # nodes of each symmetry plane that lie on its crack
     meeting: Any = None  # contact between bodies
+    drawn: Any = None  # tractions on the faces of cracks in this step, gaps at its start
+    parted: Any = ()  # crack points that have lost all traction in this step
     share: np.ndarray | None = None  # (nodes,) of the sums of a node that are the body's own
 
     @property

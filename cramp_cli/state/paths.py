@@ -19,6 +19,9 @@ class Paths(NamedTuple):
     below: np.ndarray  # (points, dim) lower surface, m
     above_velocity: np.ndarray  # (points, dim) m/s
     below_velocity: np.ndarray  # (points, dim) m/s
+    law: np.ndarray  # (points,) number of the traction law of the faces here, -1 for none
+    damage: np.ndarray  # (points,) what the faces have lost of it: 0 whole, 1 parted
+    spent: np.ndarray  # (points, 2) energy dissipated in opening and in sliding, J/m^2
     start: np.ndarray  # (cracks + 1,) first point of each crack
     ends: np.ndarray  # (cracks, 2) PLAIN, EDGE or TIP at first and last point
     fixed: np.ndarray  # (cracks,) 1 where the crack does not move
@@ -48,6 +51,9 @@ def make_paths(lines, ends, fixed, mirror, dim: int) -> Paths:
         below=points.copy(),
         above_velocity=np.zeros_like(points),
         below_velocity=np.zeros_like(points),
+        law=np.full(len(points), -1, dtype=np.int64),
+        damage=np.zeros(len(points)),
+        spent=np.zeros((len(points), 2)),
         start=np.cumsum([0, *(len(line) for line in lines)]),
         ends=np.array(ends, dtype=np.int64).reshape(len(lines), 2),
         fixed=np.array(fixed, dtype=np.int64),

@@ -23,6 +23,8 @@ ENERGIES = {
     "kinetic_energy": ("kinetic", CYCLE[0], "-"),
     "strain_energy": ("strain", CYCLE[1], "-"),
     "fracture_energy": ("fracture", CYCLE[2], "-."),
+    "cohesive_stored": ("cohesive, stored", GREY, "-"),
+    "cohesive_energy": ("cohesive", GREY, "-."),
     "friction_energy": ("friction", CYCLE[3], "-."),
     "plastic_energy": ("plastic", CYCLE[4], ":"),
     "damping_energy": ("damping", CYCLE[5], ":"),

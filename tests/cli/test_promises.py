@@ -319,7 +319,7 @@ def test_4_the_energy_books_of_every_row_close(here):
     assert cramp("run", "plate.yaml").returncode == 0
     with (here / "plate.run/history.csv").open() as file:
         rows = [{k: float(v) for k, v in row.items()} for row in csv.DictReader(file)]
-    kinds = ("kinetic", "strain", "fracture", "friction", "plastic", "damping")
+    kinds = ("kinetic", "strain", "fracture", "friction", "plastic", "damping", "cohesive")
     largest = 0.0
     for row in rows:
         held = sum(row[f"{kind}_energy"] for kind in kinds)

@@ -13,7 +13,7 @@ LAYERS = (
     ("__init__",),
     ("numerics",),
     ("state", "schema"),
-    ("shapes", "materials"),
+    ("shapes", "materials", "cohesive"),
     ("transfer", "cracks"),
     ("boundary", "contact"),  # conditions act on the rows that cracks make
     ("grid_velocity", "scratch"),

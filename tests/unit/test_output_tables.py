@@ -82,9 +82,9 @@ def test_reactions_follow_the_fixed_columns():
 
 def test_columns_are_those_of_the_manual():
     tips = "step,time,crack,tip,x,y,angle,length,speed,J,K_I,K_II,K_III,ctod_n,ctod_t,"
-    tips += "J_contour,K_I_contour,K_II_contour,J_spread,status"
+    tips += "J_contour,K_I_contour,K_II_contour,J_spread,J_tip,J_zone,status"
     assert ",".join(CRACK_COLUMNS) == tips
-    events = "step,time,crack,tip,kind,x,y,angle,length,J,K_I,K_II,energy"
+    events = "step,time,crack,tip,kind,x,y,angle,length,J,K_I,K_II,energy,mode_I"
     assert ",".join(GROWTH_COLUMNS) == events
 
 

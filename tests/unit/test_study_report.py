@@ -126,7 +126,7 @@ def test_verdicts(tmp_path, run):
     bad = write_run(tmp_path / "bad.run", statuses=("ok", "ok", "closed"))
     history = (bad / "history.csv").read_text().splitlines()
     cells = history[-1].split(",")
-    cells[0], cells[10] = "60", "0.02"  # step, energy_error
+    cells[0], cells[history[0].split(",").index("energy_error")] = "60", "0.02"
     (bad / "history.csv").write_text("\n".join([*history[:-1], ",".join(cells)]) + "\n")
     (bad / "run.log").write_text("10:00:00 warning step 60: the energy balance is off\n")
     found = judge(bad, EnergySection())
