@@ -79,7 +79,7 @@ class Books:
         damping, friction = float(books.damping[0]), float(books.friction[0])
         fracture = float(books.fracture[0])
         work = float(books.external[0])
-        taken = friction + plastic + damping
+        taken = friction + plastic + damping + fracture
         spent = kinetic + stored + taken
         self.largest = max(self.largest, kinetic + stored, abs(work), taken)
         self.error = (spent - self.start - work) / self.largest if self.largest else 0.0

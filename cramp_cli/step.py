@@ -18,6 +18,7 @@ from cramp_cli.boundary.conditions import (
 )
 from cramp_cli.cracks.contact import FIRST, LAST, UPDATE, touch
 from cramp_cli.cracks.fields import find_openings, find_rows, list_cracks, move_paths
+from cramp_cli.cracks.release import calm_running_tips, resist_opening
 from cramp_cli.grid_velocity import find_strain_velocity, find_update_velocity
 from cramp_cli.transfer import sums
 from cramp_cli.transfer.on_grid import advance_momentum, find_acceleration, find_velocity
@@ -62,6 +63,7 @@ def step(model, state, scratch, watch) -> None:
         hold_forces(conditions, scratch, state, time, dt)
         advance_momentum(grid, count, model.strides, dt)
         state.books.friction[0] += touch(grid, rows, laws, model.strides, dt, UPDATE)
+        resist_opening(model, state, scratch)
         repeat_images(conditions, scratch, grid.momentum, grid.force)
         hold_after_contact(conditions, scratch, state, time, dt)
         find_acceleration(grid, count, model.strides)
@@ -89,6 +91,7 @@ def step(model, state, scratch, watch) -> None:
         if model.scheme.after:
             find_strain_velocity(model, state, scratch)
             sums.strain(model, state, scratch, model.scheme.after, last=True)
+        calm_running_tips(model, state, scratch)
 
     state.time += dt
     state.step += 1

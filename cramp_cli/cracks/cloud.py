@@ -35,8 +35,8 @@ def list_origins(lattice, particles) -> Origins:
     return Origins(first, particles.id[by_cell])
 
 
-def cloud_around(model, state, scratch, place, radius: float) -> Cloud:
-    """Return the particles that started within `radius` of a place (m), and a few more.
+def started_around(model, state, scratch, place, radius: float) -> np.ndarray:
+    """Return the particles that started within `radius` of a place (m), and a few more, ascending.
 
     place: (dim,) in the undeformed body
     """
@@ -48,7 +48,15 @@ def cloud_around(model, state, scratch, place, radius: float) -> Cloud:
     runs = [
         slice(origins.first[n + cells[0, 0]], origins.first[n + cells[1, 0] + 1]) for n in lines
     ]
-    chosen = np.sort(scratch.index[np.concatenate([origins.number[run] for run in runs])])
+    return np.sort(scratch.index[np.concatenate([origins.number[run] for run in runs])])
+
+
+def cloud_around(model, state, scratch, place, radius: float) -> Cloud:
+    """Return copies of the particles that started within `radius` of a place (m), and a few more.
+
+    place: (dim,) in the undeformed body
+    """
+    chosen = started_around(model, state, scratch, place, radius)
     edges = [np.searchsorted(chosen, (b.lo, b.hi)).tolist() for b in model.blocks]
     parts = tuple((b, lo, hi) for b, (lo, hi) in zip(model.blocks, edges, strict=True) if lo < hi)
     return Cloud(Particles(*(array[chosen] for array in state.particles)), parts)

@@ -7,7 +7,7 @@ inside the part of the domain where nothing counts, carried to its end by the fu
 kink (kink.py). Later the own domain takes over, small enough to leave the corner outside.
 """
 
-from math import atan2
+from math import atan2, sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,7 +16,9 @@ from cramp_cli.cracks.domain_integral import inner_radius
 from cramp_cli.cracks.face_terms import rubbed_off
 from cramp_cli.cracks.kink import LARGEST, kinked
 from cramp_cli.cracks.moving_tip import integrate_flux, mean_velocity
+from cramp_cli.cracks.rayleigh import rayleigh_speed, release_factors, wave_speeds
 from cramp_cli.cracks.room import find_room
+from cramp_cli.cracks.speed import ALMOST
 from cramp_cli.cracks.tips import (
     SMALLEST,
     USUAL,
@@ -80,7 +82,8 @@ def _own_load(model, state, scratch, tip, site, kink):
             if is_closed(model, scratch, tip.crack, here, radius, K_I):
                 inner = inner_radius(radius, width)
                 K_I, K_II = 0.0, K_II - rubbed_off(model, site, tip.crack, inner, radius)
-            return J, K_I, K_II
+            speed = float(state.growth.speed[line_of(tip)])
+            return (J, *sized(J, K_I, K_II, speed, site)) if speed > 0.0 else (J, K_I, K_II)
         radius *= 0.9
     return None
 
@@ -105,6 +108,19 @@ def _parent_load(model, state, scratch, tip, site, kink):
             return (k_I**2 + k_II**2) / site.hooke.stiffness, k_I, k_II
         radius *= 0.9
     return None
+
+
+def sized(J, K_I, K_II, speed, site) -> tuple[float, float]:
+    """Return K_I, K_II with their ratio kept and the size that belongs to J at a speed (m/s).
+
+    J = (A_I K_I^2 + A_II K_II^2)/(2 mu) (Freund 1990, eq. 5.3.10). The interaction integral knows
+    the field of a tip at rest only, and sees the tractions behind a running one (release.py).
+    """
+    fast, slow = wave_speeds(site.hooke.shear, site.hooke.kappa, site.block.density)
+    A_I, A_II = release_factors(min(speed, ALMOST * rayleigh_speed(fast, slow)), fast, slow)
+    found = (A_I * K_I**2 + A_II * K_II**2) / (2.0 * site.hooke.shear)
+    size = sqrt(max(J, 0.0) / found) if found > 0.0 else 0.0
+    return size * K_I, size * K_II
 
 
 def flux_into_tip(model, site, inner, radius) -> float:

@@ -58,6 +58,11 @@ def make_growth(paths) -> Growth:
     )
 
 
+def running_tips(growth: Growth) -> list[int]:
+    """Return the ends (2 * crack + end) that run now."""
+    return np.flatnonzero(growth.speed > 0.0).tolist()
+
+
 def _heading(paths, crack: int, end: int) -> np.ndarray:
     points = paths.origin[paths.crack(crack)]
     out = points[-1] - points[-2] if end else points[0] - points[1]
