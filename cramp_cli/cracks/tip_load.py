@@ -7,7 +7,7 @@ inside the part of the domain where nothing counts, carried to its end by the fu
 kink (kink.py). Later the own domain takes over, small enough to leave the corner outside.
 """
 
-from math import atan2, sqrt
+from math import atan2, inf, sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -27,10 +27,12 @@ from cramp_cli.cracks.tips import (
     is_closed,
     site_at,
 )
-from cramp_cli.state.growth import BLEND, BLIND, HELD, KINK, OWN
+from cramp_cli.state.growth import BLEND, BLIND, HELD, KINK, MIXED, OWN
 
 SHORT, LONG = 2.0, 3.0  # lengths of a kink between which its own domain takes over (cells)
 AROUND, FALL = 0.5, 4.0  # R0 beyond the end of a kink, and R1 beyond R0 (cells)
+MOST_BENT = 0.5  # rad by which a crack may turn within the domain of a tip that grows
+OF_RESISTED = 0.83  # J of a running tip over K^2/E' by the interaction integral (theory: growth)
 LEAST_FALL = 1.5  # R1 beyond R0 at the least (cells)
 
 
@@ -59,33 +61,52 @@ def load_on(model, state, scratch, tip: Tip) -> TipLoad:
     own = _own_load(model, state, scratch, tip, site, kink) if late > 0.0 else None
     old = _parent_load(model, state, scratch, tip, site, kink) if late < 1.0 else None
     if own is not None and old is not None:
-        mixed = late * np.array(own) + (1.0 - late) * np.array(old)
-        return TipLoad(*mixed.tolist(), BLEND, site)
-    if own is not None or old is not None:
-        return TipLoad(*(own or old), OWN if own else KINK, site)
+        blend = late * np.array(own[:3]) + (1.0 - late) * np.array(old)
+        return TipLoad(*blend.tolist(), BLEND, site)
+    if own is not None:
+        return TipLoad(*own, site)
+    if old is not None:
+        return TipLoad(*old, KINK, site)
     stage = BLIND if growth.stage[k] == BLIND else HELD
     return TipLoad(*growth.load[k].tolist(), stage, site)
 
 
 def _own_load(model, state, scratch, tip, site, kink):
-    """Return J, K_I, K_II of the tip's own domain, or None where it has no room."""
+    """Return J, K_I, K_II of the tip's own domain and its stage, or None without room."""
     width, radii = model.lattice.width, model.fracture.radii
-    room, _ = find_room(model, state.paths, tip, site.frame.origin, bends=False)
-    radius = min(radii[0] if radii else USUAL * width, kink, room)
+    room, _ = find_room(model, state.paths, tip, site.frame.origin, inf)
+    straight, _ = find_room(model, state.paths, tip, site.frame.origin, MOST_BENT)
+    wanted = min(radii[0] if radii else USUAL * width, max(straight, SMALLEST * width))
+    radius = min(wanted, kink, room)
     least = (1.0 - 1e-9) * min(SMALLEST * width, kink)
     while radius >= least:
-        J, K_I, K_II, spoiled = domain_values(model, site, radius)
+        J, K_I, K_II, spoiled, mixed = domain_values(model, site, radius)
         if not spoiled:
-            if state.growth.length[line_of(tip)] > 0.0:
-                J = flux_into_tip(model, site, inner_radius(radius, width), radius)
             here = state.paths.point[tip.points[0]]
             if is_closed(model, scratch, tip.crack, here, radius, K_I):
                 inner = inner_radius(radius, width)
                 K_I, K_II = 0.0, K_II - rubbed_off(model, site, tip.crack, inner, radius)
-            speed = float(state.growth.speed[line_of(tip)])
-            return (J, *sized(J, K_I, K_II, speed, site)) if speed > 0.0 else (J, K_I, K_II)
+            load = _running_load(model, state, tip, site, radius, J, K_I, K_II, mixed)
+            return (*load, MIXED if mixed else OWN)
         radius *= 0.9
     return None
+
+
+def _running_load(model, state, tip, site, radius, J, K_I, K_II, mixed):
+    """Return J of a tip that has grown by the flow into it, with K_I, K_II of that size.
+
+    The flow through a second material is that into the tip where the interface runs along the
+    crack: nothing changes from one place to the next. Else J is that of K.
+    """
+    growth, k = state.growth, line_of(tip)
+    speed = float(growth.speed[k])
+    if growth.length[k] == 0.0:
+        return J, K_I, K_II
+    if mixed and not growth.wall[k]:
+        share = OF_RESISTED if speed > 0.0 else 1.0
+        return share * J, sqrt(share) * K_I, sqrt(share) * K_II
+    J = flux_into_tip(model, site, inner_radius(radius, model.lattice.width), radius)
+    return (J, *sized(J, K_I, K_II, speed, site)) if speed > 0.0 else (J, K_I, K_II)
 
 
 def _parent_load(model, state, scratch, tip, site, kink):
@@ -93,12 +114,13 @@ def _parent_load(model, state, scratch, tip, site, kink):
     width, growth, k = model.lattice.width, state.growth, line_of(tip)
     before = tuple(growth.parent[k].tolist())
     corner = site_at(model, state, scratch, tip, growth.corner[k], before)
-    room, _ = find_room(model, state.paths, tip, corner.frame.origin, bends=False)
+    room, _ = find_room(model, state.paths, tip, corner.frame.origin, inf)
     inner = max(kink + AROUND * width, width)
     radius = min(inner + FALL * width, room)
     while radius >= inner + LEAST_FALL * width:
-        _, K_I, K_II, spoiled = domain_values(model, corner, radius, inner)
-        if not spoiled:
+        values = domain_values(model, corner, radius, inner)
+        if not values.spoiled:
+            K_I, K_II = values.K_I, values.K_II
             here = state.paths.point[tip.points[0]]
             if is_closed(model, scratch, tip.crack, here, radius, K_I):
                 K_I, K_II = 0.0, K_II - rubbed_off(model, corner, tip.crack, inner, radius)

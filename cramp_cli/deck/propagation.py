@@ -7,7 +7,7 @@ from typing import Literal
 from pydantic import Field
 
 from cramp_cli.schema.section import Name, Section, Wrong, one_of
-from cramp_cli.schema.units import Length, Number, Time, Velocity, pair, shown
+from cramp_cli.schema.units import EnergyToughness, Length, Number, Time, Velocity, pair, shown
 
 HOW = "how fast a tip runs"
 
@@ -67,6 +67,16 @@ Criterion = Literal[
     "steady_state",
 ]
 ONLY_WITH = {"p": "empirical", "q": "empirical", "begin": "steady_state"}
+
+
+class InterfaceSection(Section):
+    """The bond of two materials, where it has a toughness of its own.
+
+    Without one a crack along the interface needs the toughness of the weaker material.
+    """
+
+    between: tuple[Name, Name] = Field(description="names of both materials")
+    G_Ic: EnergyToughness = Field(gt=0, description="critical energy release rate along it")
 
 
 class PropagationSection(Section):
