@@ -6,6 +6,7 @@ from time import perf_counter
 
 import numpy as np
 
+from cramp_cli.cracks.account import growth_of_ends, path_rows
 from cramp_cli.cracks.fields import find_rows, list_cracks
 from cramp_cli.cracks.grow import blind_tips, grow
 from cramp_cli.cracks.tips import sample_tips
@@ -163,7 +164,8 @@ def simulate(
     if profile:
         reporter.message("info", run.watch.table())
     speed = run.steps_after_first() * len(state.particles.mass) / max(wall - first, 1e-9)
-    return Summary(state.step, state.time, wall, run.tips, run.books.error, speed or None)
+    grown = tuple(growth_of_ends(model, state))
+    return Summary(state.step, state.time, wall, run.tips, run.books.error, speed or None, grown)
 
 
 class _Run:
@@ -248,6 +250,7 @@ class _Run:
         """Write the end of the run."""
         check_health(self.model, self.state)
         self._write(*(lambda time: True,) * 3)
+        self.outputs.path(path_rows(self.model, self.state))
 
     def headline(self) -> dict:
         """Return the numbers worth a look while it runs."""

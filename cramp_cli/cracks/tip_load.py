@@ -32,7 +32,6 @@ from cramp_cli.state.growth import BLEND, BLIND, HELD, KINK, MIXED, OWN
 SHORT, LONG = 2.0, 3.0  # lengths of a kink between which its own domain takes over (cells)
 AROUND, FALL = 0.5, 4.0  # R0 beyond the end of a kink, and R1 beyond R0 (cells)
 MOST_BENT = 0.5  # rad by which a crack may turn within the domain of a tip that grows
-OF_RESISTED = 0.83  # J of a running tip over K^2/E' by the interaction integral (theory: growth)
 LEAST_FALL = 1.5  # R1 beyond R0 at the least (cells)
 
 
@@ -95,16 +94,13 @@ def _own_load(model, state, scratch, tip, site, kink):
 def _running_load(model, state, tip, site, radius, J, K_I, K_II, mixed):
     """Return J of a tip that has grown by the flow into it, with K_I, K_II of that size.
 
-    The flow through a second material is that into the tip where the interface runs along the
-    crack: nothing changes from one place to the next. Else J is that of K.
+    The flow through a domain with a second material is that into the tip where the interface runs
+    along the crack: nothing changes from one place to the next. A tip at rest has the J of its K.
     """
     growth, k = state.growth, line_of(tip)
     speed = float(growth.speed[k])
-    if growth.length[k] == 0.0:
+    if growth.length[k] == 0.0 or (mixed and speed == 0.0):
         return J, K_I, K_II
-    if mixed and not growth.wall[k]:
-        share = OF_RESISTED if speed > 0.0 else 1.0
-        return share * J, sqrt(share) * K_I, sqrt(share) * K_II
     J = flux_into_tip(model, site, inner_radius(radius, model.lattice.width), radius)
     return (J, *sized(J, K_I, K_II, speed, site)) if speed > 0.0 else (J, K_I, K_II)
 
