@@ -250,7 +250,7 @@ class _Run:
         """Write the end of the run."""
         check_health(self.model, self.state)
         self._write(*(lambda time: True,) * 3)
-        self.outputs.path(path_rows(self.model, self.state))
+        self.outputs.last_paths(path_rows(self.model, self.state))
 
     def headline(self) -> dict:
         """Return the numbers worth a look while it runs."""

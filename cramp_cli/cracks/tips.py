@@ -243,18 +243,12 @@ def _measure_domain(model, state, scratch, tip, site):
         return {}, f"invalid: the radius is below {SMALLEST:g} cells"
     room, what = find_room(model, paths, tip, site.frame.origin)
     radius, remark = (room, what) if room < wanted else (wanted, "")
-    measured = None
-    while radius >= least and measured is None:
-        values = domain_values(model, site, radius)
-        if values.spoiled:
-            radius, remark = 0.9 * radius, values.spoiled
-        else:
-            measured = values
+    measured, radius, remark = _fitting(model, site, radius, least, remark)
     if measured is None or (radii and remark):
         return {}, f"invalid: {remark} is nearer than {wanted / width:.3g} cells"
     J, K_I, K_II = measured[:3]
     others = [r for r in radii[1:] or [s * radius for s in SPREAD] if r <= room]
-    spread = _spread(J, [domain_values(model, site, r) for r in others])
+    spread = _spread(measured, [domain_values(model, site, r) for r in others])
     status = f"shrunk: {remark} within {wanted / width:.3g} cells" if remark else ""
     if measured.mixed:
         status = "; ".join(filter(None, [CORRECTED, status]))
@@ -265,9 +259,26 @@ def _measure_domain(model, state, scratch, tip, site):
     return {"J": J, "K_I": K_I, "K_II": K_II, "J_spread": spread}, status
 
 
-def _spread(J, others) -> float:
+def _fitting(model, site, radius, least, remark):
+    """Return what the largest domain of one material gives, its radius, and what made it smaller.
+
+    If there is none down to `least` (m): of the largest with a second material, or None.
+    """
+    second = None
+    while radius >= least:
+        values = domain_values(model, site, radius)
+        if not values.spoiled and not values.mixed:
+            return values, radius, remark
+        if not values.spoiled and second is None:
+            second = values, radius, remark
+        radius, remark = 0.9 * radius, values.spoiled or "another material"
+    return second or (None, radius, remark)
+
+
+def _spread(measured, others) -> float:
     """Return the spread of J over domains that hold nothing foreign; nan if none has another J."""
-    values = [other.J for other in others if not other.spoiled]
+    J = measured.J
+    values = [other.J for other in others if not other.spoiled and other.mixed <= measured.mixed]
     if not values:
         return nan
     return (max(*values, J) - min(*values, J)) / abs(J) if J else 0.0

@@ -97,7 +97,7 @@ class RunOutputs:
         for row in rows:
             self._table("growth", GROWTH_COLUMNS).write(row)
 
-    def path(self, rows: Iterable[dict]) -> None:
+    def last_paths(self, rows: Iterable[dict]) -> None:
         """Write path.csv, the cracks at the end of the run; keys as in PATH_COLUMNS."""
         for row in rows:
             self._table("path", PATH_COLUMNS).write(row)
