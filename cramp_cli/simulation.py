@@ -6,6 +6,7 @@ from time import perf_counter
 
 import numpy as np
 
+from cramp_cli.cracks.account import growth_of_ends, path_rows
 from cramp_cli.cracks.cohesion import cohesive_energies, parted_points, tractions_now
 from cramp_cli.cracks.fields import find_rows, list_cracks
 from cramp_cli.cracks.grow import blind_tips, grow
@@ -83,7 +84,7 @@ class Books:
         fracture = float(books.fracture[0])
         work = float(books.external[0])
         held, parting = cohesive_energies(model, state)
-        taken = friction + plastic + damping + parting
+        taken = friction + plastic + damping + parting + fracture
         spent = kinetic + stored + held + taken
         self.largest = max(self.largest, kinetic + stored + held, abs(work), taken)
         self.error = (spent - self.start - work) / self.largest if self.largest else 0.0
@@ -169,7 +170,8 @@ def simulate(
     if profile:
         reporter.message("info", run.watch.table())
     speed = run.steps_after_first() * len(state.particles.mass) / max(wall - first, 1e-9)
-    return Summary(state.step, state.time, wall, run.tips, run.books.error, speed or None)
+    grown = tuple(growth_of_ends(model, state))
+    return Summary(state.step, state.time, wall, run.tips, run.books.error, speed or None, grown)
 
 
 class _Run:
@@ -259,6 +261,7 @@ class _Run:
         """Write the end of the run."""
         check_health(self.model, self.state)
         self._write(*(lambda time: True,) * 3)
+        self.outputs.last_paths(path_rows(self.model, self.state))
 
     def headline(self) -> dict:
         """Return the numbers worth a look while it runs."""

@@ -20,6 +20,7 @@ from cramp_cli.contact.bodies import find_pairs, move_rigid_bodies, touch_bodies
 from cramp_cli.cracks.cohesion import book_pressures, draw_faces
 from cramp_cli.cracks.contact import FIRST, LAST, UPDATE, touch
 from cramp_cli.cracks.fields import find_openings, find_rows, list_cracks, move_paths
+from cramp_cli.cracks.release import calm_running_tips, resist_opening
 from cramp_cli.grid_velocity import find_strain_velocity, find_update_velocity
 from cramp_cli.transfer import sums
 from cramp_cli.transfer.on_grid import advance_momentum, find_acceleration, find_velocity
@@ -68,6 +69,7 @@ def step(model, state, scratch, watch) -> None:
         advance_momentum(grid, count, model.strides, dt)
         touch_bodies(model, state, scratch, UPDATE)
         state.books.friction[0] += touch(grid, rows, laws, model.strides, dt, UPDATE)
+        resist_opening(model, state, scratch)
         repeat_images(conditions, scratch, grid.momentum, grid.force)
         hold_after_contact(conditions, scratch, state, time, dt)
         find_acceleration(grid, count, model.strides)
@@ -98,6 +100,7 @@ def step(model, state, scratch, watch) -> None:
         if model.scheme.after:
             find_strain_velocity(model, state, scratch)
             sums.strain(model, state, scratch, model.scheme.after)
+        calm_running_tips(model, state, scratch)
 
     state.time += dt
     state.step += 1

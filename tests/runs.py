@@ -26,6 +26,9 @@ class Rows:
     def growth(self, rows):
         self.tables["growth"] += rows
 
+    def last_paths(self, rows):
+        self.tables["path"] = rows
+
     def particle_frame(self, step, time, points, fields):
         pass
 

@@ -26,6 +26,7 @@ def build_propagation(deck, blocks, geometry) -> Propagation | None:
     chosen = section.cracks
     return Propagation(
         resistance={name: one for name, one in resistance.items() if one is not None},
+        interfaces={frozenset(one.between): one.G_Ic for one in deck.interfaces},
         speed=_speed(section.speed),
         piece=section.piece,
         cracks=tuple(chosen is None or crack.name in chosen for crack in deck.cracks),

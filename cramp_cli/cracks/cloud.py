@@ -35,10 +35,10 @@ def list_origins(lattice, particles) -> Origins:
     return Origins(first, particles.id[by_cell])
 
 
-def cloud_around(model, state, scratch, place, radius: float, group: int = 0) -> Cloud:
-    """Return the particles that started within `radius` of a place (m), and a few more.
+def started_around(model, state, scratch, place, radius: float) -> np.ndarray:
+    """Return the particles that started within `radius` of a place (m), and a few more, ascending.
 
-    place: (dim,) in the undeformed body; group: of bodies in contact, others are not seen
+    place: (dim,) in the undeformed body
     """
     lattice, origins, (_, *strides) = model.lattice, scratch.origins, model.strides
     corners = (np.asarray(place) + [[-radius], [radius]] - lattice.lower) / lattice.width
@@ -50,7 +50,15 @@ def cloud_around(model, state, scratch, place, radius: float, group: int = 0) ->
     lines = [sum(line) for line in product(*planes)]
     runs = [slice(origins.first[n + west], origins.first[n + east + 1]) for n in lines]
     chosen = np.sort(scratch.index[np.concatenate([origins.number[run] for run in runs])])
-    chosen = chosen[chosen != DELETED]
+    return chosen[chosen != DELETED]
+
+
+def cloud_around(model, state, scratch, place, radius: float, group: int = 0) -> Cloud:
+    """Return copies of the particles that started within `radius` of a place (m), and a few more.
+
+    place: (dim,) in the undeformed body; group: of bodies in contact, others are not seen
+    """
+    chosen = started_around(model, state, scratch, place, radius)
     if model.between_bodies is not None:
         chosen = chosen[model.groups.of_body[state.particles.body[chosen]] == group]
     edges = [np.searchsorted(chosen, (b.lo, b.hi)).tolist() for b in model.blocks]

@@ -5,15 +5,16 @@ new piece with a new direction begins when the last one is half a cell long (doc
 """
 
 from dataclasses import dataclass
-from math import atan2, cos, inf, sin
+from math import atan2, inf, sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from cramp_cli.cracks.criteria.directions import GIVEN, OWN, turn_by
+from cramp_cli.cracks.criteria.directions import GIVEN, OWN, turn_by, turned
 from cramp_cli.cracks.criteria.load import Load
 from cramp_cli.cracks.extend import add_point, cover_end, end_point, make_room, move_end
 from cramp_cli.cracks.intensity import open_and_slide, opening_near_tip
+from cramp_cli.cracks.interface import choose_course
 from cramp_cli.cracks.meeting import first_met, has_left_body, leave_body, stay_on_grid
 from cramp_cli.cracks.speed import Pull
 from cramp_cli.cracks.tip_load import LONG, line_of, load_on
@@ -41,6 +42,7 @@ class Propagation:
     """How cracks grow."""
 
     resistance: dict  # of each material by name; a material without one does not break
+    interfaces: dict  # toughness (J/m^2) of pairs of materials, by the set of both names
     speed: Any  # law
     piece: float  # m
     cracks: tuple  # whether each crack may grow
@@ -50,6 +52,15 @@ class Propagation:
     longest: float = inf  # m, of a whole crack
     begin: float = inf  # s: from then on a crack runs whatever its load
     steady: bool = False  # once begun a crack never stops
+
+    def toughness_of(self, material: str) -> float:
+        """Return the toughness of a material (J/m^2); inf if it does not break."""
+        return self.resistance[material].G_Ic if material in self.resistance else inf
+
+    def toughness_between(self, one: str, other: str) -> float:
+        """Return the toughness along an interface (J/m^2): its own, or that of the weaker side."""
+        weaker = min(self.toughness_of(one), self.toughness_of(other))
+        return min(self.interfaces.get(frozenset((one, other)), inf), weaker)
 
 
 def grow(model, state, scratch) -> list[dict]:
@@ -104,7 +115,10 @@ def _load_of(paths, tip, found) -> Load:
 
 def _speed(model, state, tip, resistance, load) -> float:
     settings, growth, k = model.propagation, state.growth, line_of(tip)
+    cost = float(growth.wall[k]) or resistance.G_Ic
     drive = resistance.criterion.drive(load)
+    if growth.wall[k]:  # it goes where the interface lets it, not where it would by its criterion
+        drive = sqrt(max(load.J, 0.0) / cost) if load.K_I > 0.0 else 0.0
     begun = settings.steady and growth.running[k]
     if begun or state.time >= settings.begin - 0.5 * model.dt:
         drive = max(drive, 1.0)
@@ -112,7 +126,7 @@ def _speed(model, state, tip, resistance, load) -> float:
         return 0.0
     if growth.unseen[k] > UNSEEN * model.lattice.width:
         return 0.0
-    release, width = load.J / resistance.G_Ic, model.lattice.width
+    release, width = load.J / cost, model.lattice.width
     pull = Pull(drive, release, float(growth.speed[k]), resistance.rayleigh, model.dt, width)
     return min(settings.speed.speed(pull), settings.fastest * resistance.rayleigh)
 
@@ -124,7 +138,7 @@ def _rest(model, state, tip, resistance) -> list[dict]:
     arrest = ARREST * model.lattice.width / resistance.rayleigh
     if not growth.running[k] or growth.rested[k] < arrest:
         return []
-    growth.running[k], growth.piece[k], growth.owed[k] = 0, inf, 0.0
+    growth.running[k], growth.piece[k], growth.owed[k], growth.wall[k] = 0, inf, 0.0, 0.0
     return [_row(model, state, tip, "arrest")]
 
 
@@ -139,7 +153,7 @@ def _run(model, state, scratch, tip, found, load, criterion) -> list[dict]:
     growth.owed[k], growth.running[k] = 0.0, 1
     now = found.site.frame.now
     if begins:
-        now = _begin_piece(model, state, scratch, tip, load, criterion, now)
+        now = _begin_piece(model, state, scratch, tip, found.site, load, criterion)
         tip = _at_end(state.paths, tip)
     heading = growth.heading[k]
     met = first_met(model, state, tip, now, step)
@@ -171,7 +185,7 @@ def _end(model, state, tip, what, kind) -> dict:
     return _row(model, state, tip, kind)
 
 
-def _begin_piece(model, state, scratch, tip, load, criterion, now) -> tuple:
+def _begin_piece(model, state, scratch, tip, site, load, criterion) -> tuple:
     """Turn the tip and add a point for the piece that begins; return its direction now.
 
     A tip at rest may leave a corner. A running tip turns by the mean load on the way of its last
@@ -179,20 +193,19 @@ def _begin_piece(model, state, scratch, tip, load, criterion, now) -> tuple:
     within two cells, not at once: its domain sees the direction of the crack over that length, and
     a tip that turned by all of the angle in each piece would overshoot and run in a zigzag.
     """
-    growth, settings, k = state.growth, model.propagation, line_of(tip)
+    growth, k = state.growth, line_of(tip)
     heading = tuple(growth.heading[k].tolist())
+    place = state.paths.origin[end_point(state.paths, tip.crack, tip.end)].copy()
     running = 0.0 < growth.piece[k] < inf
     if running:
         K_I, K_II = (growth.mean[k] / growth.piece[k]).tolist()
         load = load._replace(K_I=K_I, K_II=K_II)
-    turn = 0.0
-    if growth.stage[k] != HELD:
-        fixed = settings.toward if settings.direction == GIVEN else tuple(growth.initial[k])
-        turn = turn_by(settings.direction, criterion, load, heading, fixed)
-    place = state.paths.origin[end_point(state.paths, tip.crack, tip.end)].copy()
+    wanted = _wanted_turn(model, growth, k, load, criterion, heading)
     if running:
-        turn *= min(growth.piece[k] / (TURNING * model.lattice.width), 1.0)
-    elif abs(turn) > CORNER:
+        wanted *= min(growth.piece[k] / (TURNING * model.lattice.width), 1.0)
+    turn, growth.wall[k] = choose_course(model, site, place, heading, load, wanted)
+    resolved = growth.kink[k] > LONG * model.lattice.width  # a corner before this one is far away
+    if abs(turn) > CORNER and resolved and (turn != wanted or not running):
         growth.corner[k], growth.parent[k], growth.kink[k] = place, heading, 0.0
     growth.heading[k] = turned(heading, turn)
     growth.piece[k], growth.mean[k] = 0.0, 0.0
@@ -200,13 +213,16 @@ def _begin_piece(model, state, scratch, tip, load, criterion, now) -> tuple:
     if model.cohesion is not None:
         cover_end(state.paths, tip.crack, tip.end, model.cohesion.grown)
     scratch.segments = make_room(state.paths, scratch.segments, model.lattice.node_count)
-    return turned(now, turn)
+    return turned(site.frame.now, turn)
 
 
-def turned(vector, angle) -> tuple:
-    """Return a vector turned to the left by an angle (rad)."""
-    c, s = cos(angle), sin(angle)
-    return c * vector[0] - s * vector[1], s * vector[0] + c * vector[1]
+def _wanted_turn(model, growth, k, load, criterion, heading) -> float:
+    """Return by what angle (rad) a tip would turn in one material."""
+    settings = model.propagation
+    if growth.stage[k] == HELD:
+        return 0.0
+    fixed = settings.toward if settings.direction == GIVEN else tuple(growth.initial[k])
+    return turn_by(settings.direction, criterion, load, heading, fixed)
 
 
 def _book(model, state, tip, found, step) -> None:

@@ -17,15 +17,14 @@ class Obstacle(NamedTuple):
     crack: int = -1  # the crack for which it is none: the one that lies on this symmetry plane
 
 
-def find_room(model, paths, tip, here, bends=True) -> tuple[float, str]:
+def find_room(model, paths, tip, here, bend=BEND) -> tuple[float, str]:
     """Return the distance (m) from a tip to what is nearest and spoils its domain, and what it is.
 
-    here: the tip in the undeformed body (m); bends: whether bends of the crack itself do
+    here: the tip in the undeformed body (m); bend: turn (rad) of the crack itself that does
     """
     here = np.array(here)
     found = [(np.inf, ""), *_other_cracks(model, paths, tip, here), *_other_tip(paths, tip, here)]
-    if bends:
-        found += _own_bends(paths, tip, here)
+    found += _own_bends(paths, tip, here, bend)
     for places, what, crack in model.fracture.obstacles:
         if len(places) and crack != tip.crack:
             found.append((float(np.sqrt(np.min(np.sum((places - here) ** 2, axis=1)))), what))
@@ -38,12 +37,12 @@ def _other_cracks(model, paths, tip, here):
             yield _distance(here, paths.origin[paths.crack(c)]), f"crack {model.crack_names[c]}"
 
 
-def _own_bends(paths, tip, here):
+def _own_bends(paths, tip, here, bend):
     """Yield the nearest bend."""
     own = paths.origin[tip.points]
     step = np.diff(own, axis=0)
     turned = np.arctan2(step[:, 1], step[:, 0]) - np.arctan2(step[0, 1], step[0, 0])
-    bent = np.flatnonzero(np.abs(np.angle(np.exp(1j * turned))) > BEND)
+    bent = np.flatnonzero(np.abs(np.angle(np.exp(1j * turned))) > bend)
     if len(bent):
         yield float(np.hypot(*(own[bent[0]] - here))), "a bend of the crack"
 

@@ -7,7 +7,7 @@ inside the part of the domain where nothing counts, carried to its end by the fu
 kink (kink.py). Later the own domain takes over, small enough to leave the corner outside.
 """
 
-from math import atan2
+from math import atan2, inf, sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,7 +16,9 @@ from cramp_cli.cracks.domain_integral import inner_radius
 from cramp_cli.cracks.face_terms import drawn, rubbed_off
 from cramp_cli.cracks.kink import LARGEST, kinked
 from cramp_cli.cracks.moving_tip import integrate_flux, mean_velocity
+from cramp_cli.cracks.rayleigh import rayleigh_speed, release_factors, wave_speeds
 from cramp_cli.cracks.room import find_room
+from cramp_cli.cracks.speed import ALMOST
 from cramp_cli.cracks.tips import (
     SMALLEST,
     USUAL,
@@ -25,10 +27,11 @@ from cramp_cli.cracks.tips import (
     is_closed,
     site_at,
 )
-from cramp_cli.state.growth import BLEND, BLIND, HELD, KINK, OWN
+from cramp_cli.state.growth import BLEND, BLIND, HELD, KINK, MIXED, OWN
 
 SHORT, LONG = 2.0, 3.0  # lengths of a kink between which its own domain takes over (cells)
 AROUND, FALL = 0.5, 4.0  # R0 beyond the end of a kink, and R1 beyond R0 (cells)
+MOST_BENT = 0.5  # rad by which a crack may turn within the domain of a tip that grows
 LEAST_FALL = 1.5  # R1 beyond R0 at the least (cells)
 
 
@@ -57,34 +60,54 @@ def load_on(model, state, scratch, tip: Tip) -> TipLoad:
     own = _own_load(model, state, scratch, tip, site, kink) if late > 0.0 else None
     old = _parent_load(model, state, scratch, tip, site, kink) if late < 1.0 else None
     if own is not None and old is not None:
-        mixed = late * np.array(own) + (1.0 - late) * np.array(old)
-        return TipLoad(*mixed.tolist(), BLEND, site)
-    if own is not None or old is not None:
-        return TipLoad(*(own or old), OWN if own else KINK, site)
+        blend = late * np.array(own[:3]) + (1.0 - late) * np.array(old)
+        return TipLoad(*blend.tolist(), BLEND, site)
+    if own is not None:
+        return TipLoad(*own, site)
+    if old is not None:
+        return TipLoad(*old, KINK, site)
     stage = BLIND if growth.stage[k] == BLIND else HELD
     return TipLoad(*growth.load[k].tolist(), stage, site)
 
 
 def _own_load(model, state, scratch, tip, site, kink):
-    """Return J, K_I, K_II of the tip's own domain, or None where it has no room."""
+    """Return J, K_I, K_II of the tip's own domain and its stage, or None without room."""
     width, radii = model.lattice.width, model.fracture.radii
-    room, _ = find_room(model, state.paths, tip, site.frame.origin, bends=False)
-    radius = min(radii[0] if radii else USUAL * width, kink, room)
+    room, _ = find_room(model, state.paths, tip, site.frame.origin, inf)
+    straight, _ = find_room(model, state.paths, tip, site.frame.origin, MOST_BENT)
+    wanted = min(radii[0] if radii else USUAL * width, max(straight, SMALLEST * width))
+    radius = min(wanted, kink, room)
     least = (1.0 - 1e-9) * min(SMALLEST * width, kink)
     while radius >= least:
-        J, K_I, K_II, spoiled = domain_values(model, site, radius)
+        J, K_I, K_II, spoiled, mixed = domain_values(model, site, radius)
         if not spoiled:
-            if state.growth.length[line_of(tip)] > 0.0:
-                J = flux_into_tip(model, site, inner_radius(radius, width), radius)
             inner, now = inner_radius(radius, width), site.frame.now
-            own = np.array([J, K_I, K_II]) - drawn(model, state, tip, now, inner, radius)
-            J, K_I, K_II = own.tolist()
+            held = drawn(model, state, tip, now, inner, radius)
+            J, K_I, K_II = (np.array([J, K_I, K_II]) - held).tolist()
             here = state.paths.point[tip.points[0]]
             if is_closed(model, scratch, tip.crack, here, radius, K_I):
                 K_I, K_II = 0.0, K_II - rubbed_off(model, site, tip.crack, inner, radius)
-            return J, K_I, K_II
+            found = (J, K_I, K_II, float(held[0]), mixed)
+            load = _running_load(model, state, tip, site, radius, *found)
+            return (*load, MIXED if mixed else OWN)
         radius *= 0.9
     return None
+
+
+def _running_load(model, state, tip, site, radius, J, K_I, K_II, held, mixed):
+    """Return J of a tip that has grown by the flow into it, with K_I, K_II of that size.
+
+    The flow through a domain with a second material is that into the tip where the interface runs
+    along the crack: nothing changes from one place to the next. A tip at rest has the J of its K.
+
+    held: J that the faces carry (J/m^2)
+    """
+    growth, k = state.growth, line_of(tip)
+    speed = float(growth.speed[k])
+    if growth.length[k] == 0.0 or (mixed and speed == 0.0):
+        return J, K_I, K_II
+    J = flux_into_tip(model, site, inner_radius(radius, model.lattice.width), radius) - held
+    return (J, *sized(J, K_I, K_II, speed, site)) if speed > 0.0 else (J, K_I, K_II)
 
 
 def _parent_load(model, state, scratch, tip, site, kink):
@@ -92,12 +115,13 @@ def _parent_load(model, state, scratch, tip, site, kink):
     width, growth, k = model.lattice.width, state.growth, line_of(tip)
     before = tuple(growth.parent[k].tolist())
     corner = site_at(model, state, scratch, tip, growth.corner[k], before)
-    room, _ = find_room(model, state.paths, tip, corner.frame.origin, bends=False)
+    room, _ = find_room(model, state.paths, tip, corner.frame.origin, inf)
     inner = max(kink + AROUND * width, width)
     radius = min(inner + FALL * width, room)
     while radius >= inner + LEAST_FALL * width:
-        _, K_I, K_II, spoiled = domain_values(model, corner, radius, inner)
-        if not spoiled:
+        values = domain_values(model, corner, radius, inner)
+        if not values.spoiled:
+            K_I, K_II = values.K_I, values.K_II
             here = state.paths.point[tip.points[0]]
             if is_closed(model, scratch, tip.crack, here, radius, K_I):
                 K_I, K_II = 0.0, K_II - rubbed_off(model, corner, tip.crack, inner, radius)
@@ -107,6 +131,19 @@ def _parent_load(model, state, scratch, tip, site, kink):
             return (k_I**2 + k_II**2) / site.hooke.stiffness, k_I, k_II
         radius *= 0.9
     return None
+
+
+def sized(J, K_I, K_II, speed, site) -> tuple[float, float]:
+    """Return K_I, K_II with their ratio kept and the size that belongs to J at a speed (m/s).
+
+    J = (A_I K_I^2 + A_II K_II^2)/(2 mu) (Freund 1990, eq. 5.3.10). The interaction integral knows
+    the field of a tip at rest only, and sees the tractions behind a running one (release.py).
+    """
+    fast, slow = wave_speeds(site.hooke.shear, site.hooke.kappa, site.block.density)
+    A_I, A_II = release_factors(min(speed, ALMOST * rayleigh_speed(fast, slow)), fast, slow)
+    found = (A_I * K_I**2 + A_II * K_II**2) / (2.0 * site.hooke.shear)
+    size = sqrt(max(J, 0.0) / found) if found > 0.0 else 0.0
+    return size * K_I, size * K_II
 
 
 def flux_into_tip(model, site, inner, radius) -> float:

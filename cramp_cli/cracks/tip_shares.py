@@ -46,7 +46,8 @@ def sum_sides(rows, stencil, paths, particles, of_body, of_crack, shape, strides
                 known = tip
                 x, y = position[p, 0], position[p, 1]
                 side = _side_of(paths, tip, x, y, width)
-                cut, _, _ = cut_share(paths, tip, x, y, shape.half, width, *tip_nodes)
+                ramp = (tip_nodes.centre, tip_nodes.ramp)
+                cut, _, _ = cut_share(paths, tip, x, y, shape.half, width, *ramp)
             rows.tip_seen[node, 0 if side == rows.tip_side[node] else 1] += S[k] * mass[p]
             rows.tip_split[node] = rows.tip_split[node] or cut > 0.0
 

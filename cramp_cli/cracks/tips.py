@@ -8,7 +8,7 @@ number. A crack on a symmetry plane has half a domain; the other half is its ima
 
 from dataclasses import dataclass
 from math import hypot, nan
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -28,20 +28,24 @@ from cramp_cli.cracks.doubts import doubts
 from cramp_cli.cracks.face_terms import drawn, rubbed_off, zone_energy
 from cramp_cli.cracks.intensity import K_from_J, open_and_slide, opening_near_tip
 from cramp_cli.cracks.room import find_room
+from cramp_cli.cracks.second_material import add_difference
 from cramp_cli.materials.geometry import is_plane_stress
 from cramp_cli.materials.law import poisson_ratio, same_law, shear_modulus
-from cramp_cli.state.growth import BLEND, HELD, KINK
+from cramp_cli.state.growth import BLEND, HELD, KINK, MIXED
 from cramp_cli.state.paths import TIP
 
 BESIDE = 3.0  # cells behind a tip and beside the crack in which the sides are told apart
 USUAL, SMALLEST = 5.0, 2.5  # radius of the domain in cells, and the least that gives a number
 REACH = 8.0  # cells around a tip or the corner of a kink that an integral can want
 SPREAD = (0.8, 1.0, 1.2)  # radii that are compared, in shares of the radius
+CORRECTED = "corrected: the domain holds another material"
 STAGES = {
+    MIXED: CORRECTED,
     KINK: "kink: from the field around the corner",
     BLEND: "kink: partly from the field around the corner",
     HELD: "held: no room for a domain, the last load found",
 }
+BARE = 0.5  # a particle of another material nearer to the tip than this leaves no K (cells)
 LEAK = 0.02  # part of the domain that may be empty: particles are a coarse quadrature
 
 
@@ -229,8 +233,10 @@ def _recall_growth(model, state, scratch, tip, site):
     """A tip that has grown has the load that drove it in the last step (tip_load.py)."""
     k = 2 * tip.crack + tip.end
     J, K_I, K_II = state.growth.load[k].tolist()
-    measured = _with_zone(model, state, tip, J) | {"K_I": K_I, "K_II": K_II}
-    return measured, STAGES.get(int(state.growth.stage[k]), "")
+    remark = STAGES.get(int(state.growth.stage[k]), "")
+    if state.growth.wall[k]:
+        remark = "; ".join(filter(None, [remark, "along an interface"]))
+    return _with_zone(model, state, tip, J) | {"K_I": K_I, "K_II": K_II}, remark
 
 
 def _with_zone(model, state, tip, J) -> dict:
@@ -246,19 +252,15 @@ def _measure_domain(model, state, scratch, tip, site):
         return {}, f"invalid: the radius is below {SMALLEST:g} cells"
     room, what = find_room(model, paths, tip, site.frame.origin)
     radius, remark = (room, what) if room < wanted else (wanted, "")
-    measured = None
-    while radius >= least and measured is None:
-        *values, spoiled = tip_values(model, state, site, tip, radius)
-        if spoiled:
-            radius, remark = 0.9 * radius, spoiled
-        else:
-            measured = values
+    measured, radius, remark = _fitting(model, state, site, tip, radius, least, remark)
     if measured is None or (radii and remark):
         return {}, f"invalid: {remark} is nearer than {wanted / width:.3g} cells"
-    J, K_I, K_II = measured
+    J, K_I, K_II = measured[:3]
     others = [r for r in radii[1:] or [s * radius for s in SPREAD] if r <= room]
-    spread = _spread(J, [tip_values(model, state, site, tip, r) for r in others])
+    spread = _spread(measured, [tip_values(model, state, site, tip, r) for r in others])
     status = f"shrunk: {remark} within {wanted / width:.3g} cells" if remark else ""
+    if measured.mixed:
+        status = "; ".join(filter(None, [CORRECTED, status]))
     here, inner = paths.point[tip.points[0]], inner_radius(radius, width)
     if is_closed(model, scratch, tip.crack, here, radius, K_I):
         K_I, status = 0.0, "; ".join(filter(None, ["closed", status]))
@@ -267,44 +269,87 @@ def _measure_domain(model, state, scratch, tip, site):
     return _with_zone(model, state, tip, J) | values, status
 
 
-def _spread(J, others) -> float:
+def _fitting(model, state, site, tip, radius, least, remark):
+    """Return what the largest domain of one material gives, its radius, and what made it smaller.
+
+    If there is none down to `least` (m): of the largest with a second material, or None.
+    """
+    second = None
+    while radius >= least:
+        values = tip_values(model, state, site, tip, radius)
+        if not values.spoiled and not values.mixed:
+            return values, radius, remark
+        if not values.spoiled and second is None:
+            second = values, radius, remark
+        radius, remark = 0.9 * radius, values.spoiled or "another material"
+    return second or (None, radius, remark)
+
+
+def _spread(measured, others) -> float:
     """Return the spread of J over domains that hold nothing foreign; nan if none has another J."""
-    values = [value for value, _, _, spoiled in others if not spoiled]
+    J = measured.J
+    values = [other.J for other in others if not other.spoiled and other.mixed <= measured.mixed]
     if not values:
         return nan
     return (max(*values, J) - min(*values, J)) / abs(J) if J else 0.0
 
 
-def tip_values(model, state, site, tip, radius):
-    """Return J, K_I, K_II of a tip without what its faces carry, and what spoils the domain."""
-    *values, spoiled = domain_values(model, site, radius)
+class Values(NamedTuple):
+    """What a domain gives."""
+
+    J: float  # J/m^2; of K where the domain holds a second material
+    K_I: float  # Pa sqrt(m)
+    K_II: float  # Pa sqrt(m)
+    spoiled: str  # what spoils the domain; empty if nothing does
+    mixed: bool  # it holds a second material
+
+
+def tip_values(model, state, site, tip, radius) -> Values:
+    """Return what a domain gives without what the faces carry."""
+    found = domain_values(model, site, radius)
     inner = inner_radius(radius, model.lattice.width)
-    own = np.array(values) - drawn(model, state, tip, site.frame.now, inner, radius)
-    return *own.tolist(), spoiled
+    J, K_I, K_II = drawn(model, state, tip, site.frame.now, inner, radius).tolist()
+    return found._replace(J=found.J - J, K_I=found.K_I - K_I, K_II=found.K_II - K_II)
 
 
-def domain_values(model, site, radius, inner=None):
-    """Return J, K_I, K_II of a domain, and what spoils it: an empty text if it is full.
+def domain_values(model, site, radius, inner=None) -> Values:
+    """Return J, K_I, K_II of a domain, and what spoils it.
 
     inner: radius (m) within which the weight is 1; chosen if not given
     """
     inner = inner_radius(radius, model.lattice.width) if inner is None else inner
-    sums, own = np.zeros(4), 0.0
+    sums, own, known = np.zeros(4), 0.0, True
     for block, lo, hi in site.cloud.parts:
+        particles, same = site.cloud.particles, same_law(block.law, site.block.law)
         part = integrate_domain(
-            site.cloud.particles, site.frame, site.hooke, site.gravity, inner, radius, lo, hi
+            particles, site.frame, site.hooke, site.gravity, inner, radius, lo, hi
         )
         sums += part
-        own += part[3] if same_law(block.law, site.block.law) else 0.0
+        own += part[3] if same else 0.0
+        if not same and part[3] > 0.0:
+            other = hooke_of(block.law, model.geometry)
+            more = add_difference(particles, site.frame, site.hooke, other, inner, radius, lo, hi)
+            sums[1:3] += more
+            known = known and not np.isnan(other.shear) and _is_clear(model, site, lo, hi)
     per_length = (2.0 if site.half else 1.0) / model.geometry.thickness
     J, K_I, K_II, filled = (per_length * sums).tolist()
+    K_II = 0.0 if site.half else K_II
     expected = integral_of_weight(inner, radius)
+    mixed = abs(per_length * own / expected - 1.0) >= LEAK
     spoiled = ""
     if abs(filled / expected - 1.0) >= LEAK:
         spoiled = "the edge of the body"
-    elif abs(per_length * own / expected - 1.0) >= LEAK:
+    elif mixed and not known:
         spoiled = "another material"
-    return J, K_I, 0.0 if site.half else K_II, spoiled
+    if mixed and not spoiled:
+        J = (K_I**2 + K_II**2) / site.hooke.stiffness
+    return Values(J, K_I, K_II, spoiled, mixed)
+
+
+def _is_clear(model, site, lo, hi) -> bool:
+    """Return whether particles lo..hi keep away from the tip: on an interface there is no K."""
+    away = site.cloud.particles.origin[lo:hi] - site.frame.origin
+    return float(np.hypot(*away.T).min()) > BARE * model.lattice.width
 
 
 def crack_length(paths, crack: int) -> float:

@@ -35,3 +35,19 @@ def unit_slope(mode, x, y, shear, kappa):
         dv = 0.5 * s * (kappa - 1.0 - 2.0 * s * s) + 2.0 * s * c * c
     cos_r, sin_r = x / r, y / r
     return f * (0.5 * cos_r * u - sin_r * du) / r, f * (0.5 * cos_r * v - sin_r * dv) / r
+
+
+@kernel
+def unit_stress_slope(mode, x, y):
+    """Return the derivatives along x of `unit_stress` (1/m^1.5).
+
+    By Westergaard's function Z = 1/sqrt(2 pi z): mode I has sigma_xx = Re Z - y Im Z', sigma_yy =
+    Re Z + y Im Z', sigma_xy = -y Re Z'; mode II 2 Im Z + y Re Z', -y Re Z', Re Z - y Im Z'.
+    """
+    z = complex(x, y)
+    once = -0.5 / (sqrt(2.0 * pi) * z**1.5)
+    twice = -1.5 * once / z
+    if mode == 1:
+        bent = y * twice.imag
+        return once.real - bent, once.real + bent, -y * twice.real
+    return 2.0 * once.imag + y * twice.real, -y * twice.real, once.real - y * twice.imag

@@ -19,7 +19,7 @@ from cramp_cli.deck.loads import AnyLoad
 from cramp_cli.deck.materials import AnyMaterial
 from cramp_cli.deck.overrides import apply_overrides
 from cramp_cli.deck.parts import parts_of, salvage
-from cramp_cli.deck.propagation import PropagationSection
+from cramp_cli.deck.propagation import InterfaceSection, PropagationSection
 from cramp_cli.deck.run import FractureSection, OutputSection, SolverSection
 from cramp_cli.deck.solids import Isotropic
 from cramp_cli.deck.write import to_yaml
@@ -62,6 +62,9 @@ class Deck(Section):
     solver: SolverSection = Field(description="time steps")
     fracture: FractureSection = Field(
         default_factory=FractureSection, description="J, K_I and K_II at the tips"
+    )
+    interfaces: tuple[InterfaceSection, ...] = Field(
+        (), description="bonds between materials along which a crack may run"
     )
     propagation: PropagationSection | None = Field(
         None, description="when, where to and how fast cracks grow; they do not if not given"

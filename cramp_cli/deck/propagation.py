@@ -8,7 +8,7 @@ from pydantic import Field
 
 from cramp_cli.deck.cohesive import AnyTraction
 from cramp_cli.schema.section import Name, Section, Wrong, one_of
-from cramp_cli.schema.units import Length, Number, Time, Velocity, pair, shown
+from cramp_cli.schema.units import EnergyToughness, Length, Number, Time, Velocity, pair, shown
 
 HOW = "how fast a tip runs"
 
@@ -68,6 +68,16 @@ Criterion = Literal[
     "steady_state",
 ]
 ONLY_WITH = {"p": "empirical", "q": "empirical", "begin": "steady_state"}
+
+
+class InterfaceSection(Section):
+    """The bond of two materials, where it has a toughness of its own.
+
+    Without one a crack along the interface needs the toughness of the weaker material.
+    """
+
+    between: tuple[Name, Name] = Field(description="names of both materials")
+    G_Ic: EnergyToughness = Field(gt=0, description="critical energy release rate along it")
 
 
 class PropagationSection(Section):

@@ -24,6 +24,7 @@ OUR_FILES = (
     "history.csv",
     "cracks.csv",
     "growth.csv",
+    "path.csv",
     "columns.json",
     "particles.xdmf",
     "particles.h5",

@@ -1,4 +1,4 @@
-"""Tables of a run: history.csv, cracks.csv, growth.csv, and columns.json that explains them."""
+"""Tables of a run: history, cracks, growth, path; columns.json explains them."""
 
 import csv
 import io
@@ -20,7 +20,7 @@ HISTORY_COLUMNS = {
     "strain_energy": ("J", "elastic energy stored in the particles"),
     "fracture_energy": (
         "J",
-        "sum of J da of all growth; not part of energy_error (theory: growth)",
+        "sum of J da of all growth, what running tips have taken out of the solid",
     ),
     "cohesive_stored": ("J", "energy that traction laws of crack faces would give back"),
     "cohesive_energy": ("J", "energy that traction laws of crack faces have dissipated"),
@@ -84,7 +84,16 @@ GROWTH_COLUMNS = {
 }
 
 
-TABLES = ("history", "cracks", "growth")
+PATH_COLUMNS = {
+    "crack": ("", "name of the crack"),
+    "point": ("1", "number of the point, from the start of the crack to its end"),
+    "x": ("m", "place of the point at the end of the run"),
+    "y": ("m", "place of the point at the end of the run"),
+    "X": ("m", "its place in the undeformed body"),
+    "Y": ("m", "its place in the undeformed body"),
+}
+
+TABLES = ("history", "cracks", "growth", "path")
 
 
 class CsvTable:
@@ -151,7 +160,12 @@ def named_column(column: str) -> tuple[str, str] | None:
 
 def write_columns(folder: Path, history: dict[str, tuple[str, str]]) -> None:
     """Write columns.json: unit and meaning of every column of every table."""
-    tables = {"history.csv": history, "cracks.csv": CRACK_COLUMNS, "growth.csv": GROWTH_COLUMNS}
+    tables = {
+        "history.csv": history,
+        "cracks.csv": CRACK_COLUMNS,
+        "growth.csv": GROWTH_COLUMNS,
+        "path.csv": PATH_COLUMNS,
+    }
     write_json(Path(folder) / "columns.json", {name: _explain(t) for name, t in tables.items()})
 
 

@@ -17,6 +17,7 @@ from cramp_cli.output.history import (
     CRACK_COLUMNS,
     GROWTH_COLUMNS,
     HISTORY_COLUMNS,
+    PATH_COLUMNS,
     CsvTable,
     cut_tables,
     history_columns,
@@ -95,6 +96,11 @@ class RunOutputs:
         """Append one row per event to growth.csv; keys as in GROWTH_COLUMNS."""
         for row in rows:
             self._table("growth", GROWTH_COLUMNS).write(row)
+
+    def last_paths(self, rows: Iterable[dict]) -> None:
+        """Write path.csv, the cracks at the end of the run; keys as in PATH_COLUMNS."""
+        for row in rows:
+            self._table("path", PATH_COLUMNS).write(row)
 
     def particle_frame(
         self, step: int, time: float, points: np.ndarray, fields: dict[str, np.ndarray]

@@ -21,6 +21,7 @@ class Summary(NamedTuple):
     tips: list[dict]  # crack, tip, x, y (m), J (J/m^2), K_I, K_II (Pa m^0.5), status
     energy_error: float | None = None  # share of the largest energy
     particle_steps_per_second: float | None = None
+    growth: tuple = ()  # of dict: crack, tip, grown (m), energy (J), x, y (m), fate
 
 
 def summary_text(summary: Summary) -> str:
@@ -31,8 +32,16 @@ def summary_text(summary: Summary) -> str:
         "wall time": f"{duration(summary.wall_time)} for {summary.steps} steps",
         "speed": "" if rate is None else f"{rate:.3g} particle-steps/s",
     }
-    lines = [f"{name:13} {text}" for name, text in facts.items() if text]
+    lines = [*map(growth_line, summary.growth)]
+    lines += [f"{name:13} {text}" for name, text in facts.items() if text]
     return "\n".join([tips_text(summary.tips), *lines] if summary.tips else lines)
+
+
+def growth_line(end: dict) -> str:
+    """Return what became of an end that has grown."""
+    name = f"{end['crack']} {end['tip']}"
+    grown, energy, x, y = (number(end[key]) for key in ("grown", "energy", "x", "y"))
+    return f"{name:13} grew {grown} m for {energy} J, {end['fate']} at ({x}, {y}) m"
 
 
 def tips_text(tips: list[dict]) -> str:

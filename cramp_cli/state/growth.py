@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-OWN, KINK, BLEND, HELD, BLIND = range(5)  # where the load of a tip was found
+OWN, KINK, BLEND, HELD, BLIND, MIXED = range(6)  # where the load of a tip was found
 
 
 class Growth(NamedTuple):
@@ -28,6 +28,7 @@ class Growth(NamedTuple):
     running: np.ndarray  # (ends,) 1 from the onset to an arrest
     rested: np.ndarray  # (ends,) time at rest since it last moved (s)
     length: np.ndarray  # (ends,) grown so far (m)
+    wall: np.ndarray  # (ends,) toughness of the interface that the piece runs along (J/m^2), or 0
     energy: np.ndarray  # (ends,) spent on new surface so far (J)
     pending: np.ndarray  # (ends,) part of it that no event has told yet (J)
 
@@ -53,9 +54,15 @@ def make_growth(paths) -> Growth:
         running=np.zeros(n, dtype=np.int64),
         rested=np.zeros(n),
         length=np.zeros(n),
+        wall=np.zeros(n),
         energy=np.zeros(n),
         pending=np.zeros(n),
     )
+
+
+def running_tips(growth: Growth) -> list[int]:
+    """Return the ends (2 * crack + end) that run now."""
+    return np.flatnonzero(growth.speed > 0.0).tolist()
 
 
 def _heading(paths, crack: int, end: int) -> np.ndarray:

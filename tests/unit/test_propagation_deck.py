@@ -49,6 +49,16 @@ def deck(tmp_path):
         ("propagation.direction=given", "propagation.toward: is missing; it goes with"),
         ("propagation.toward=[1, 0]", "propagation.toward: goes with direction: given only"),
         ("propagation={criterion: critical_J, direction: given, toward: [0, 0]}", "not be [0, 0]"),
+        (
+            "propagation={criterion: critical_J, direction: given, toward: [-1, 0.1]}",
+            "propagation.toward: turns the tip of crack left by 174 degrees, back beside its own",
+        ),
+        ("interfaces=[{between: [glass, rok], G_Ic: 1}]", "interfaces.0.between.1: "),
+        ("interfaces=[{between: [rock, rock], G_Ic: 1}]", "must name two materials (got rock"),
+        (
+            "interfaces=[{between: [rock, glass], G_Ic: 1}, {between: [glass, rock], G_Ic: 2}]",
+            "interfaces.1.between: the interface of glass and rock is given already; remove it",
+        ),
         ("propagation.p=2", "propagation.p: goes with criterion: empirical only"),
         ("propagation.begin=1 s", "propagation.begin: goes with criterion: steady_state only"),
         ("propagation.criterion=steady_state", "propagation.speed: must be {law: prescribed"),

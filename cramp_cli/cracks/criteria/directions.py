@@ -1,6 +1,6 @@
 """Where a crack goes: by its criterion, or by a rule of the deck."""
 
-from math import atan2
+from math import atan2, cos, sin
 
 from cramp_cli.cracks.criteria.load import Load
 
@@ -35,3 +35,9 @@ def turn_by(rule: int, criterion, load: Load, heading: tuple, fixed: tuple) -> f
     if rule == NORMAL_TO_COD:
         return normal_to_cod(load)
     return 0.0 if rule == SELF_SIMILAR else turn_to(fixed, heading)
+
+
+def turned(vector, angle) -> tuple:
+    """Return a vector turned to the left by an angle (rad)."""
+    c, s = cos(angle), sin(angle)
+    return c * vector[0] - s * vector[1], s * vector[0] + c * vector[1]
