@@ -2,6 +2,9 @@
 
 A node with three bodies has three pairs, which touch one after the other: the momentum that one
 body gets the other gives, so the sum is kept to round-off.
+
+All three passes of a step go by the separation at its start: a pair that touched in the update
+alone would give the strain a velocity with which the bodies still approach.
 """
 
 from cramp_cli.cracks.contact import (
@@ -62,13 +65,11 @@ def push(grid, row, velocity, normal, gap, kind, mu, mu_static, strides, dt, sta
     A rigid body is a partner of infinite mass. velocity: its own (m/s); normal: towards it
     """
     mass, momentum, force = grid.mass[row], grid.momentum, grid.force
-    p, f = vector(strides, momentum, row), vector(strides, force, row)
+    p = vector(strides, momentum, row)
     if mass <= 0.0:
         return OPEN, 0.0, times(p, 0.0)
     dp = plus(times(velocity, mass), -1.0, p)
     dpn = dot(dp, normal)
-    if stage == UPDATE:
-        gap += (dpn + 0.5 * dot(f, normal) * dt) * dt / mass
     given, state = impulse(kind, mu, mu_static, dp, normal, dpn, gap)
     for d in range(len(strides)):
         momentum[row, d] += given[d]
