@@ -7,6 +7,7 @@ from cramp_cli.build.conditions import build_conditions
 from cramp_cli.build.contact import build_body_contact, build_crack_laws, build_groups
 from cramp_cli.build.growth import build_propagation
 from cramp_cli.build.laws import law_of
+from cramp_cli.build.surface import settled
 from cramp_cli.cracks.tips import Fracture
 from cramp_cli.deck.deck import Deck, DeckError
 from cramp_cli.materials.geometry import PlaneStrain, PlaneStress
@@ -113,7 +114,7 @@ def wave_speed(material) -> float:
 def seed_body(deck: Deck, lattice: Lattice, number: int) -> np.ndarray:
     """Return the particle positions of a body, shape (n, 2): centres of equal parts of cells.
 
-    What a later body covers is left to that body.
+    What a later body covers is left to that body. Those of a rigid body lie along its outline.
     """
     body = deck.bodies[number]
     if body.hole:
@@ -140,6 +141,8 @@ def seed_body(deck: Deck, lattice: Lattice, number: int) -> np.ndarray:
                 )
             ]
         )
+    if body.rigid:
+        points = settled(points, body.shape.outline(), 0.5 * width / per_cell)
     return points
 
 

@@ -5,7 +5,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from cramp_cli.contact.clouds import Clouds, clear_clouds, link_clouds, make_clouds
-from cramp_cli.contact.pairs import Pairs, find_normals, list_pairs, make_pairs
+from cramp_cli.contact.normals import find_normals, list_windows
+from cramp_cli.contact.pairs import Pairs, list_pairs, make_pairs
 from cramp_cli.contact.touch import touch_increments, touch_pairs
 from cramp_cli.cracks.contact import UPDATE
 
@@ -36,20 +37,13 @@ def find_pairs(model, state, scratch) -> None:
         link_clouds(clouds, rows, stencil, state.particles.volume, *place)
     found = list_pairs(meeting.pairs, rows, clouds, between.laws, meeting.rigid)
     if found > len(meeting.pairs.node):
-        meeting.pairs = make_pairs(2 * int(found), len(model.strides))
+        meeting.pairs = make_pairs(2 * int(found), *meeting.flat.shape)
         list_pairs(meeting.pairs, rows, clouds, between.laws, meeting.rigid)
-    find_normals(
-        meeting.pairs,
-        clouds,
-        stencil,
-        state.particles,
-        meeting.half,
-        between.laws,
-        between.normal,
-        meeting.flat,
-        (model.lattice.lower, model.lattice.width),
-        model.strides,
-    )
+    list_windows(meeting.pairs, model.strides)
+    who = (meeting.pairs, clouds, stencil, state.particles, meeting.half)
+    lattice = (model.lattice.lower, model.lattice.width)
+    how = (between.laws, between.normal, meeting.flat, lattice, model.strides)
+    find_normals(*who, *how)
 
 
 def _meeting(model, scratch) -> Meeting:
@@ -59,7 +53,7 @@ def _meeting(model, scratch) -> Meeting:
         sides = [np.full(b.hi - b.lo, b.shape.half[0]) for b in model.blocks]
         meeting = scratch.meeting = Meeting(
             clouds=make_clouds(rows, scratch.stencil),
-            pairs=make_pairs(64, len(model.strides)),
+            pairs=make_pairs(64, model.lattice.node_count, len(model.strides)),
             half=np.concatenate(sides) * model.lattice.width,
             flat=_flat(model),
             rigid=model.between_bodies.rigid_groups(),

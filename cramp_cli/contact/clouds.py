@@ -26,7 +26,9 @@ def make_clouds(rows: int, stencil) -> Clouds:
     entries = stencil.table.size
     dim = stencil.local.shape[1]
     return Clouds(
-        np.full(rows, -1, dtype=np.int64), np.zeros(entries, dtype=np.int64), np.zeros((rows, dim))
+        head=np.full(rows, -1, dtype=np.int64),
+        link=np.zeros(entries, dtype=np.int64),
+        slope=np.zeros((rows, dim)),
     )
 
 

@@ -10,13 +10,26 @@ from cramp_cli.numerics.tensor import dot, plus, times, vector
 
 
 @kernel
-def average_gradient(clouds, a, b, strides):
-    """Return g_a - g_b, a vector from body a to body b: each counts by its size."""
-    return plus(vector(strides, clouds.slope, a), -1.0, vector(strides, clouds.slope, b))
+def gradients_around(clouds, pairs, i, strides):
+    """Return the sums of g_a and of g_b over the window of pair i."""
+    none = times(vector(strides, clouds.slope, 0), 0.0)
+    ga, gb = none, none
+    for w in range(pairs.around[i]):
+        j = pairs.window[i, w]
+        ga = plus(ga, 1.0, vector(strides, clouds.slope, pairs.row[j, 0]))
+        gb = plus(gb, 1.0, vector(strides, clouds.slope, pairs.row[j, 1]))
+    return ga, gb
 
 
 @kernel
-def larger_gradient(clouds, a, b, strides):
-    """Return g_a or -g_b, whichever is longer: the body that fills the node better decides."""
-    ga, gb = vector(strides, clouds.slope, a), vector(strides, clouds.slope, b)
+def average_gradient(clouds, pairs, i, strides):
+    """Return g_a - g_b, a vector from body a to body b: each counts by its size."""
+    ga, gb = gradients_around(clouds, pairs, i, strides)
+    return plus(ga, -1.0, gb)
+
+
+@kernel
+def larger_gradient(clouds, pairs, i, strides):
+    """Return g_a or -g_b, whichever is longer: the body that fills the nodes better decides."""
+    ga, gb = gradients_around(clouds, pairs, i, strides)
     return ga if dot(ga, ga) >= dot(gb, gb) else times(gb, -1.0)

@@ -1,4 +1,4 @@
-"""Normals by logistic regression over the particles that a node sees (Nairn et al. 2020).
+"""Normals by logistic regression over the particles around a node (Nairn et al. 2020).
 
 The plane n.x + c = 0 that best parts the particles of two bodies: q = -1 for those of a and +1 for
 those of b is fitted by f(z) = 2/(1 + exp(-z)) - 1 = tanh(z/2), z = n.x + c, with a small penalty on
@@ -39,34 +39,35 @@ def add_terms(A, b, w, r, x, y):
 
 
 @kernel
-def fit_plane(clouds, stencil, position, rows, node_place, width, beta, linear):
+def fit_plane(clouds, stencil, position, pairs, i, place, width, beta, linear):
     """Return the next n_x, n_y, c: the linear regression, or a step of Gauss and Newton from beta.
 
-    rows: those of body a and body b; node_place: (m)
+    i: the pair; place: of its node (m)
     """
-    n_x, n_y, c = beta
     A = (PENALTY, PENALTY, 0.0, 0.0, 0.0, 0.0)
-    rhs = (-PENALTY * n_x, -PENALTY * n_y, 0.0)
-    for body in range(2):
-        q, entry = 2.0 * body - 1.0, clouds.head[rows[body]]
-        while entry >= 0:
-            p = particle_of(stencil, entry)
-            x, y = (
-                (position[p, 0] - node_place[0]) / width,
-                (position[p, 1] - node_place[1]) / width,
-            )
-            f = 0.0 if linear else tanh(0.5 * (n_x * x + n_y * y + c))
-            phi = 1.0 if linear else 0.5 * (1.0 - f * f)
-            A, rhs = add_terms(A, rhs, phi * phi, phi * (q - f), x, y)
-            entry = clouds.link[entry]
-    dx, dy, dc = solve(A, rhs)
-    return n_x + dx, n_y + dy, c + dc
+    rhs = (-PENALTY * beta[0], -PENALTY * beta[1], 0.0)
+    for w in range(pairs.around[i]):
+        j = pairs.window[i, w]
+        for body in range(2):
+            q, entry = 2.0 * body - 1.0, clouds.head[pairs.row[j, body]]
+            while entry >= 0:
+                p = particle_of(stencil, entry)
+                x, y = (position[p, 0] - place[0]) / width, (position[p, 1] - place[1]) / width
+                f = 0.0 if linear else tanh(0.5 * (beta[0] * x + beta[1] * y + beta[2]))
+                phi = 1.0 if linear else 0.5 * (1.0 - f * f)
+                A, rhs = add_terms(A, rhs, phi * phi, phi * (q - f), x, y)
+                entry = clouds.link[entry]
+    step = solve(A, rhs)
+    return beta[0] + step[0], beta[1] + step[1], beta[2] + step[2]
 
 
 @kernel
-def logistic_normal(clouds, stencil, position, rows, node_place, width):
-    """Return a vector from body a to body b; that of the linear regression if the fit fails."""
-    places = (clouds, stencil, position, rows, node_place, width)
+def logistic_normal(clouds, stencil, position, pairs, i, place, width):
+    """Return a vector from body a to body b; that of the linear regression if the fit fails.
+
+    i: the pair, with the window of those around it; place: of its node (m)
+    """
+    places = (clouds, stencil, position, pairs, i, place, width)
     first = fit_plane(*places, (0.0, 0.0, 0.0), True)
     beta = (2.0 * first[0], 2.0 * first[1], 2.0 * first[2])
     for _ in range(MOST):

@@ -101,10 +101,6 @@ def touch_pair(grid, a, b, normal, gap, kind, mu, mu_static, strides, dt, stage)
     pa, pb = vector(strides, momentum, a), vector(strides, momentum, b)
     dp = plus(times(pb, share_a), -share_b, pa)
     dpn = dot(dp, normal)
-    if stage == UPDATE:
-        fa, fb = vector(strides, force, a), vector(strides, force, b)
-        dfn = dot(plus(times(fb, share_a), -share_b, fa), normal)
-        gap += (dpn - 0.5 * dfn * dt) * dt / reduced
     given, state = impulse(kind, mu, mu_static, dp, normal, dpn, gap)
     for d in range(len(strides)):
         momentum[a, d] += given[d]
@@ -116,6 +112,18 @@ def touch_pair(grid, a, b, normal, gap, kind, mu, mu_static, strides, dt, stage)
             force[b, d] -= given[d] / dt
     work = work_of_friction(dp, given, normal, reduced) if state == SLIDING else 0.0
     return state, work, given
+
+
+@kernel
+def gap_ahead(grid, a, b, normal, gap, strides, dt):
+    """Return the opening between rows a and b at the end of the step if they do not touch (m)."""
+    mass = grid.mass
+    share_a, share_b = mass[a] / (mass[a] + mass[b]), mass[b] / (mass[a] + mass[b])
+    pa, pb = vector(strides, grid.momentum, a), vector(strides, grid.momentum, b)
+    fa, fb = vector(strides, grid.force, a), vector(strides, grid.force, b)
+    dpn = dot(plus(times(pb, share_a), -share_b, pa), normal)
+    dfn = dot(plus(times(fb, share_a), -share_b, fa), normal)
+    return gap + (dpn - 0.5 * dfn * dt) * dt / (mass[a] * share_b)
 
 
 @kernel
@@ -165,12 +173,15 @@ def touch_across(grid, rows, laws, strides, dt, stage, row, slot):
         -1.0 / grid.mass[a],
         vector(strides, rows.displacement, a),
     )
+    gap = dot(apart, n)
+    if stage == UPDATE:
+        gap = gap_ahead(grid, a, b, n, gap, strides, dt)
     state, friction, _ = touch_pair(
         grid,
         a,
         b,
         n,
-        dot(apart, n),
+        gap,
         kind,
         laws.mu[crack],
         laws.mu_static[crack],

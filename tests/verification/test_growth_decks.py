@@ -79,3 +79,19 @@ def test_wing_cracks_run_to_the_loads(piece):
     turned = degrees(first["end"]["angle"]) - 60.0
     assert turned == pytest.approx(70.5, abs=0.5)
     assert np.isclose(first["start"]["time"], first["end"]["time"], rtol=0.01)
+
+
+# Measured: ends within 3.7 % of R (1 mm) and 2.3 % (0.5 mm), symmetric to 0.1 cells.
+@pytest.mark.parametrize("piece", [0.25, 0.5])  # cells
+@pytest.mark.parametrize("cell", [1.0, 0.5])  # mm
+def test_wings_of_the_middle_disk_run_to_its_neighbours(cell, piece):
+    """Nairn and Guo 2005, Fig. 4: both ends within 5 % of R of the contacts, point-symmetric."""
+    run = run_input("five_disks", f"grid.cell={cell} mm", f"propagation.piece={piece * cell} mm")
+    ends = [row for row in run.growth if row["kind"] == "edge"]
+    assert {row["tip"] for row in ends} == {"start", "end"}
+    for row in ends:
+        contact = -0.01 if row["tip"] == "start" else 0.01
+        assert hypot(row["x"] - contact, row["y"]) < 0.05 * 0.01
+    both = zip(run.tip("start"), run.tip("end"), strict=False)
+    apart = max(hypot(a["x"] + b["x"], a["y"] + b["y"]) for a, b in both)
+    assert apart < 0.5 * cell * 1e-3

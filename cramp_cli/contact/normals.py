@@ -1,0 +1,70 @@
+"""Normal and separation of every pair of rows.
+
+The particles of an inclined or curved surface are steps of half a cell. One node sees too few of
+them: its normal is off by 8 to 18 degrees (root mean square along planes at 5 to 77 degrees),
+whatever the method. So a normal is found from what the node and those around it see: 0.2 to 5.
+"""
+
+from math import sqrt
+
+from cramp_cli.contact.gradient import average_gradient, larger_gradient
+from cramp_cli.contact.laws import AVERAGE, LARGER
+from cramp_cli.contact.logistic import logistic_normal
+from cramp_cli.contact.separation import separation
+from cramp_cli.cracks.contact import GLUED
+from cramp_cli.numerics.kernel import kernel
+
+
+@kernel
+def list_windows(pairs, strides):
+    """List for every pair those of the same two groups at its node and at the nodes around it."""
+    used, node, of_node = pairs.used[0], pairs.node, pairs.of_node
+    for i in range(used - 1, -1, -1):
+        of_node[node[i]] = i  # the first: those of a node follow each other
+    for i in range(used):
+        pairs.around[i] = 0
+        for up in range(-1, 2):
+            for right in range(-1, 2):
+                _add_to_window(pairs, i, node[i] + up * strides[1] + right * strides[0])
+    for i in range(used):
+        of_node[node[i]] = -1
+
+
+@kernel
+def _add_to_window(pairs, i, node):
+    j = pairs.of_node[node] if 0 <= node < len(pairs.of_node) else -1
+    while 0 <= j < pairs.used[0] and pairs.node[j] == node:
+        same = pairs.group[j, 0] == pairs.group[i, 0] and pairs.group[j, 1] == pairs.group[i, 1]
+        if same and pairs.around[i] < pairs.window.shape[1]:
+            pairs.window[i, pairs.around[i]] = j
+            pairs.around[i] += 1
+        j += 1
+
+
+@kernel
+def find_normals(pairs, clouds, stencil, particles, half, laws, kind, flat, lattice, strides):
+    """Find normal and separation of all pairs; a pair without a normal is left apart.
+
+    half: (n,) half sides of the particles (m); kind: of normal; flat: (nodes, dim) 1 along the
+    normals of symmetry planes through a node, along which no normal points; lattice: lower corner
+    (m) and width (m)
+    """
+    lower, width = lattice
+    for i in range(pairs.used[0]):
+        node, a, b = pairs.node[i], pairs.row[i, 0], pairs.row[i, 1]
+        pairs.normal[i, :], pairs.gap[i] = 0.0, width
+        if laws.kind[pairs.group[i, 0], pairs.group[i, 1]] == GLUED:
+            continue
+        place = (lower[0] + width * (node % strides[1]), lower[1] + width * (node // strides[1]))
+        if kind == AVERAGE:
+            nx, ny = average_gradient(clouds, pairs, i, strides)
+        elif kind == LARGER:
+            nx, ny = larger_gradient(clouds, pairs, i, strides)
+        else:
+            nx, ny = logistic_normal(clouds, stencil, particles.position, pairs, i, place, width)
+        nx, ny = nx * (1 - flat[node, 0]), ny * (1 - flat[node, 1])
+        size = sqrt(nx * nx + ny * ny)
+        if size > 0.0:
+            nx, ny = nx / size, ny / size
+            pairs.normal[i, 0], pairs.normal[i, 1] = nx, ny
+            pairs.gap[i] = separation(clouds, stencil, particles, half, a, b, nx, ny)
