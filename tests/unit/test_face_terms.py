@@ -6,11 +6,17 @@ import numpy as np
 import pytest
 from unit.test_domain_integral import CELL, PLANE_STRAIN, R1, SHEAR, STILL, field
 
+from cramp_cli.cohesive.elastic import Elastic
+from cramp_cli.cohesive.modes import Modes
+from cramp_cli.cracks.cohesion import Cohesion
 from cramp_cli.cracks.contact import FRICTIONAL, STICK
 from cramp_cli.cracks.domain_integral import inner_radius, integrate_domain
-from cramp_cli.cracks.face_terms import rubbed_off
+from cramp_cli.cracks.face_terms import drawn, rubbed_off, zone_energy
+from cramp_cli.cracks.tips import tips_of
+from cramp_cli.state.paths import TIP, make_paths
 
 INNER = inner_radius(R1, CELL)
+STIFF = 5.0  # Pa/m
 TAU, PRESSURE = 1e-9 * SHEAR, 2e-9 * SHEAR
 
 
@@ -52,3 +58,33 @@ def test_sliding_faces_carry_mu_times_the_pressure():
 def test_smooth_or_parted_faces_carry_nothing():
     assert added(FRICTIONAL, 0.0) == 0.0
     assert added(FRICTIONAL, 0.3, pressure=-PRESSURE) == 0.0
+
+
+def springs(opening, sliding):
+    """Return model and state of a straight crack whose faces are apart by the same all along."""
+    line = np.stack([np.linspace(-2.0 * R1, 2.0 * R1, 81), np.zeros(81)], axis=1)
+    paths = make_paths([line], [(TIP, TIP)], [0], [(-1, 0)], 2)
+    paths.law[:] = 0
+    paths.above[:] += (sliding, opening)
+    law = Elastic(Modes((STIFF, 2.0 * STIFF), (np.inf, np.inf), (np.inf, np.inf), 1.0))
+    model = SimpleNamespace(cohesion=Cohesion((law,), (None,)))
+    return model, SimpleNamespace(paths=paths, time=0.0)
+
+
+@pytest.mark.parametrize("end", [0, 1])
+def test_springs_take_as_much_of_K_as_rubbing_of_the_same_stress(end):
+    """Opening and sliding of the upper face along +x load both tips with K_I, K_II > 0."""
+    model_, state = springs(3e-9, 2e-9)
+    tip = tips_of(state.paths)[end]
+    _, opened, slid = drawn(model_, state, tip, tip.direction(state.paths.point), INNER, R1)
+    as_rubbed = added(STICK, shear=TAU) / TAU
+    assert opened == pytest.approx(STIFF * 3e-9 * as_rubbed, rel=1e-3)
+    assert slid == pytest.approx(2.0 * STIFF * 2e-9 * as_rubbed, rel=1e-3)
+
+
+@pytest.mark.parametrize("end", [0, 1])
+def test_zone_of_springs_holds_what_they_store(end):
+    """All of the gap arises between the tip, which is closed, and the first point: T_i g_i."""
+    model_, state = springs(3e-9, 2e-9)
+    energy = zone_energy(model_, state, tips_of(state.paths)[end])
+    assert energy == pytest.approx(STIFF * (3e-9) ** 2 + 2.0 * STIFF * (2e-9) ** 2, rel=1e-12)
