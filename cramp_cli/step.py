@@ -40,7 +40,7 @@ def step(model, state, scratch, watch) -> None:
     with watch("3 mass and momentum to the grid"):
         sums.sum_mass_and_momentum(model, state, scratch)
         meet_rows(conditions, scratch, model.lattice.width)
-        reflect_mass_and_momentum(conditions, scratch)
+        reflect_mass_and_momentum(conditions, scratch, time)
         grid.saved[:count] = grid.momentum[:count]
         touch(grid, rows, laws, model.strides, dt, FIRST)
         repeat_images(conditions, scratch, grid.momentum, grid.saved)

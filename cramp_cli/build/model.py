@@ -10,6 +10,8 @@ from cramp_cli.cracks.tips import Fracture
 from cramp_cli.deck.deck import Deck, DeckError
 from cramp_cli.materials.geometry import PlaneStrain, PlaneStress
 from cramp_cli.materials.law import confined_modulus, memory
+from cramp_cli.shapes.bspline2 import QuadraticSpline
+from cramp_cli.shapes.bspline3 import CubicSpline
 from cramp_cli.shapes.linear import Linear
 from cramp_cli.shapes.ugimp import UniformGimp
 from cramp_cli.state.bands import band_starts, sorted_by_cell
@@ -21,7 +23,12 @@ from cramp_cli.state.paths import EDGE, PLAIN, TIP, Paths, make_paths
 from cramp_cli.transfer.update import Flip, Fmpm, Xpic
 
 GEOMETRIES = {"plane_strain": PlaneStrain, "plane_stress": PlaneStress}
-SHAPES = {"linear": Linear, "ugimp": UniformGimp}
+SHAPES = {
+    "linear": Linear,
+    "ugimp": UniformGimp,
+    "bspline2": QuadraticSpline,
+    "bspline3": CubicSpline,
+}
 TIPS = {"smooth": TipNodes(centre=0.03, ramp=1.0), "sharp": None}
 ENDS = {"plain": PLAIN, "edge": EDGE, "tip": TIP}
 ON_PLANE = 1e-6  # cells
