@@ -44,7 +44,7 @@ def step(model, state, scratch, watch) -> None:
     with watch("3 mass and momentum to the grid"):
         sums.sum_mass_and_momentum(model, state, scratch)
         meet_rows(conditions, scratch, model.lattice.width)
-        reflect_mass_and_momentum(conditions, scratch)
+        reflect_mass_and_momentum(conditions, scratch, time)
         grid.saved[:count] = grid.momentum[:count]
         touch_bodies(model, state, scratch, FIRST)
         touch(grid, rows, laws, model.strides, dt, FIRST)

@@ -53,6 +53,8 @@ SETTINGS = (
     ("plane_strain", "ugimp", "fmpm(2)"),
     ("plane_strain", "ugimp", "xpic(2)"),
     ("plane_strain", "linear", "flip"),
+    ("plane_strain", "bspline2", "flip"),
+    ("plane_strain", "bspline3", "flip"),
     ("plane_stress", "ugimp", "flip"),
 )
 

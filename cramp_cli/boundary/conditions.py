@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from cramp_cli.boundary.beyond import Beyond, follow_force, follow_increment, follow_momentum
 from cramp_cli.boundary.symmetry import (
     Mirror,
     double_on,
@@ -37,6 +38,7 @@ class Hold:
     value: float  # m/s
     curve: Any  # .value(t)
     boundary: int  # number of the boundary that books the reaction
+    beyond: Beyond | None = None  # nodes behind it that have to follow
 
 
 @dataclass(frozen=True)
@@ -148,8 +150,11 @@ def _share_nodes(conditions, scratch) -> None:
         share[plane.mirror.outside] = 0.0
 
 
-def reflect_mass_and_momentum(conditions, scratch) -> None:
-    """Give the sums on both sides of every symmetry plane to each other."""
+def reflect_mass_and_momentum(conditions, scratch, time) -> None:
+    """Give the sums on both sides of every symmetry plane to each other.
+
+    Behind a held plane that particles reach beyond, the motion goes on oddly from here on.
+    """
     grid, rows = scratch.grid, scratch.rows
     for plane, free in zip(conditions.mirrors, scratch.free, strict=True):
         m = plane.mirror
@@ -157,6 +162,9 @@ def reflect_mass_and_momentum(conditions, scratch) -> None:
         double_on(grid.mass.reshape(-1, 1), rows, m.crack, m.on, free)
         reflect_on(grid.mass.reshape(-1, 1), rows, -1, m.crack, m.on, free, True)
         _reflect(m, free, rows, grid.momentum, add=True)
+    for hold, held in zip(conditions.holds, scratch.held, strict=True):
+        if hold.beyond is not None:
+            _hold_momentum(hold, held, scratch, time)
 
 
 def reflect_sum(conditions, scratch, field) -> None:
@@ -196,10 +204,16 @@ def _reflect(m: Mirror, free, rows, field, *, add: bool) -> float:
 
 def hold_momenta(conditions, scratch, time) -> None:
     """Impose the prescribed velocities on the momenta."""
-    for hold, (rows, count) in zip(conditions.holds, scratch.held, strict=True):
-        grid = scratch.grid
-        speed = hold.value * hold.curve.value(time)
-        hold_momentum(grid.momentum, grid.mass, rows, count, hold.held.axis, speed)
+    for hold, held in zip(conditions.holds, scratch.held, strict=True):
+        _hold_momentum(hold, held, scratch, time)
+
+
+def _hold_momentum(hold, held, scratch, time) -> None:
+    grid, (rows, count) = scratch.grid, held
+    speed = hold.value * hold.curve.value(time)
+    hold_momentum(grid.momentum, grid.mass, rows, count, hold.held.axis, speed)
+    if hold.beyond is not None:
+        follow_momentum(grid.momentum, scratch.rows, grid.mass, hold.beyond, speed)
 
 
 def hold_forces(conditions, scratch, state, time, dt) -> None:
@@ -208,6 +222,9 @@ def hold_forces(conditions, scratch, state, time, dt) -> None:
         speed = hold.value * hold.curve.value(time)
         where = (scratch.grid, scratch.rows, scratch.share, rows, count)
         reaction, work = hold_force(*where, hold.held.axis, speed, dt)
+        if hold.beyond is not None:
+            more = follow_force(*where[:3], hold.beyond, speed, dt)
+            reaction, work = reaction + more, work + more * speed * dt
         state.reactions[hold.boundary, hold.held.axis] += reaction
         state.books.external[0] += work
 
@@ -238,6 +255,8 @@ def hold_increment(conditions, scratch, field) -> None:
     """Keep held components out of higher orders of the grid velocity."""
     for hold, (rows, count) in zip(conditions.holds, scratch.held, strict=True):
         hold_zero(field, rows, count, hold.held.axis)
+        if hold.beyond is not None:
+            follow_increment(field, scratch.rows, scratch.grid.mass, hold.beyond)
 
 
 def add_loads(model, scratch, time) -> None:

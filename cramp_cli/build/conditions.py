@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from cramp_cli.boundary.beyond import Beyond
 from cramp_cli.boundary.conditions import (
     Conditions,
     Gravity,
@@ -16,6 +17,7 @@ from cramp_cli.boundary.velocity import Held
 from cramp_cli.cracks.room import Obstacle
 from cramp_cli.deck.deck import DeckError
 from cramp_cli.shapes.linear import Linear
+from cramp_cli.shapes.shape import reaches_beyond
 
 ON_PLANE = 1e-6  # cells
 REACH = 1.5  # cells beside a region in which a node may hold particles of it
@@ -84,8 +86,23 @@ class _Builder:
         region = (np.where(free, -np.inf, lower), np.where(free, np.inf, upper))
         for axis, speed in boundary.components:
             held = Held(node, inside.astype(np.int64), axis, *region)
-            self.holds.append(Hold(held, float(speed), boundary.in_time, number))
+            beyond = self._beyond(where, node[inside], axis)
+            self.holds.append(Hold(held, float(speed), boundary.in_time, number, beyond))
         self._spoil(self.nodes[node[inside]], "a held boundary")
+
+    def _beyond(self, where, on, component) -> Beyond | None:
+        """Return the nodes beyond a held plane that particles of the body see, or None.
+
+        on: (n,) nodes of the plane; a plane through the body, or a held region, has none
+        """
+        if len(where.planes) != 1 or not reaches_beyond(self.blocks[0].shape):
+            return None
+        axis, at = where.planes[0]
+        lattice, side = self.lattice, self._body_side(axis, at)
+        line = round((at - lattice.lower[axis]) / lattice.width)
+        step = side * lattice.strides[axis]
+        inner = side and 1 <= line < lattice.cells[axis]
+        return Beyond(component, on - step, on + step) if inner else None
 
     def _add_mirror(self, number, boundary):
         axis, at = boundary.where.planes[0]

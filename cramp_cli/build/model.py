@@ -12,6 +12,8 @@ from cramp_cli.cracks.tips import Fracture
 from cramp_cli.deck.deck import Deck, DeckError
 from cramp_cli.materials.geometry import PlaneStrain, PlaneStress
 from cramp_cli.materials.law import confined_modulus, memory
+from cramp_cli.shapes.bspline2 import QuadraticSpline
+from cramp_cli.shapes.bspline3 import CubicSpline
 from cramp_cli.shapes.linear import Linear
 from cramp_cli.shapes.ugimp import UniformGimp
 from cramp_cli.state.bands import band_starts, sorted_by_cell
@@ -23,7 +25,12 @@ from cramp_cli.state.paths import EDGE, PLAIN, TIP, Paths, make_paths
 from cramp_cli.transfer.update import Flip, Fmpm, Xpic
 
 GEOMETRIES = {"plane_strain": PlaneStrain, "plane_stress": PlaneStress}
-SHAPES = {"linear": Linear, "ugimp": UniformGimp}
+SHAPES = {
+    "linear": Linear,
+    "ugimp": UniformGimp,
+    "bspline2": QuadraticSpline,
+    "bspline3": CubicSpline,
+}
 RAMP = 1.0  # cells of a crack over which a smooth tip fades
 # Cells ahead of a smooth tip at which the first particles feel it: K of centre and edge cracks with
 # ten cells is right within 0.3 % on average over a cell, for two to four particles along a cell.

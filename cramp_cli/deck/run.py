@@ -66,8 +66,10 @@ class SolverSection(Section):
     """How the equations are solved in time."""
 
     end_time: Time = Field(gt=0, description="time at which the run ends")
-    shape: Literal["linear", "ugimp"] = Field(
-        "ugimp", description="shape functions between particles and grid"
+    shape: Literal["linear", "ugimp", "bspline2", "bspline3"] = Field(
+        "ugimp",
+        description="shape functions between particles and grid: linear, uniform GIMP, or "
+        "B-splines of degree 2 or 3",
     )
     tips: Literal["smooth", "sharp"] = Field(
         "smooth",

@@ -3,7 +3,7 @@
 from math import floor
 from typing import NamedTuple
 
-from cramp_cli.shapes.shape import along_axis, first_node, node_steps, support
+from cramp_cli.shapes.shape import along_axis, first_node, node_steps, reaches_beyond, support
 
 
 class Linear(NamedTuple):
@@ -15,6 +15,11 @@ class Linear(NamedTuple):
 @support.implement(Linear)
 def _(shape):
     return 2
+
+
+@reaches_beyond.implement(Linear)
+def _(shape):
+    return False
 
 
 @first_node.implement(Linear)

@@ -32,6 +32,14 @@ def support(shape):
     """Return how many nodes a particle sees along an axis."""
 
 
+@generic
+def reaches_beyond(shape):
+    """Return whether a particle whose box ends on a line of nodes sees nodes beyond that line.
+
+    Where velocities are held on the line, those nodes have to follow (boundary/beyond.py).
+    """
+
+
 @by_length
 def first_nodes(x, shape, axis):
     """Return the number of the first node along every axis from `axis` on; x: place in cells."""

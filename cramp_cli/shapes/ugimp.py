@@ -6,7 +6,7 @@ Bardenhagen and Kober (2004), The generalized interpolation material point metho
 from math import floor
 from typing import NamedTuple
 
-from cramp_cli.shapes.shape import along_axis, first_node, node_steps, support
+from cramp_cli.shapes.shape import along_axis, first_node, node_steps, reaches_beyond, support
 
 
 class UniformGimp(NamedTuple):
@@ -18,6 +18,11 @@ class UniformGimp(NamedTuple):
 @support.implement(UniformGimp)
 def _(shape):
     return 3
+
+
+@reaches_beyond.implement(UniformGimp)
+def _(shape):
+    return False
 
 
 @first_node.implement(UniformGimp)

@@ -3,22 +3,24 @@
 import numpy as np
 import pytest
 
+from cramp_cli.build.model import SHAPES
 from cramp_cli.numerics.tensor import columns, from_columns
+from cramp_cli.shapes.bspline3 import CubicSpline
 from cramp_cli.shapes.linear import Linear
 from cramp_cli.shapes.shape import factors, gradients, offsets, weights
-from cramp_cli.shapes.ugimp import UniformGimp
 from cramp_cli.transfer.nodes import give, give_gradient, take, take_both
 
 EVERYWHERE = pytest.mark.parametrize(
-    ("shape", "dim"), [(kind, dim) for kind in (Linear, UniformGimp) for dim in (2, 3)]
+    ("shape", "dim"), [(kind, dim) for kind in SHAPES.values() for dim in (2, 3)]
 )
 FIRST = 4
 
 
 def one_particle(kind, dim):
     """Return factors, weights, gradients, strides and nodes of a particle, and random fields."""
-    shape, place = kind((0.25, 0.2, 0.3)[:dim]), (0.8, 0.45, 1.1)[:dim]
-    place = tuple(x % 1.0 for x in place) if kind is Linear else place
+    shape, place = kind((0.25, 0.2, 0.3)[:dim]), (0.8, 0.55, 1.1)[:dim]
+    first = {Linear: 0.0, CubicSpline: 1.0}  # others see both nodes beside the nearest one
+    place = tuple(first[kind] + x % 1.0 for x in place) if kind in first else place
     strides = (1, 7, 42)[:dim]
     nodes = FIRST + np.array(offsets(strides, shape))
     field = np.random.default_rng(3).normal(size=(200, dim))

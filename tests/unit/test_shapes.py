@@ -1,5 +1,7 @@
 """Properties that every shape function has, and the values of each (algorithm.md 2)."""
 
+from math import comb, factorial
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -7,6 +9,7 @@ from hypothesis import strategies as st
 
 from cramp_cli.build.model import SHAPES
 from cramp_cli.numerics.tensor import vector
+from cramp_cli.shapes.linear import Linear
 from cramp_cli.shapes.shape import (
     along_axis,
     first_node,
@@ -31,7 +34,7 @@ ALL_SHAPES = pytest.mark.parametrize(
 DIMENSIONS = pytest.mark.parametrize("dim", [2, 3])
 LATTICES = {
     2: Lattice((7, 6), 0.5, (-1.0, 2.0)),
-    3: Lattice((7, 6, 5), 0.5, (-1.0, 2.0, 0.0)),
+    3: Lattice((7, 6, 6), 0.5, (-1.0, 2.0, 0.0)),
 }
 ROUND_OFF = 1e-15
 place = st.floats(1.0, 4.0)  # in cells, far enough from the grid's border for every shape
@@ -111,15 +114,16 @@ def test_gimp_slopes_have_no_jump(half, border):
 @ALL_SHAPES
 @DIMENSIONS
 def test_gradients_are_differences_of_weights(shape, dim):
-    """Central differences are exact for quadratics; the places avoid changes of formula."""
-    step, lattice = 1e-4, LATTICES[dim]
+    """Differences of five points are exact for cubics; the places avoid changes of formula."""
+    step, lattice = 1e-3, LATTICES[dim]
     cells = np.array([2.0 + 1 / 16, 1.0 + 5 / 16, 3.0 - 3 / 16])[:dim]
     _, G, _, _ = in_space(shape, lattice, cells)
     for d in range(dim):
-        move = step * np.eye(dim)[d]
-        ahead, _, _, x1 = in_space(shape, lattice, cells + move)
-        behind, _, _, x0 = in_space(shape, lattice, cells - move)
-        slope = (ahead - behind) / (x1[d] - x0[d])
+        move, slope = step * np.eye(dim)[d], 0.0
+        for far, share in ((1.0, 8.0 / 12.0), (2.0, -1.0 / 12.0)):
+            ahead, _, _, x1 = in_space(shape, lattice, cells + far * move)
+            behind, _, _, x0 = in_space(shape, lattice, cells - far * move)
+            slope += share * 2.0 * far * (ahead - behind) / (x1[d] - x0[d])
         np.testing.assert_allclose(G[:, d], slope, atol=10 * ROUND_OFF / (step * lattice.width))
 
 
@@ -141,6 +145,30 @@ def test_gimp_is_the_mean_of_linear_functions_over_the_particle(half, x):
         assert slope == pytest.approx((N[-1] - N[0]) / (2.0 * half), abs=40 * ROUND_OFF)
 
 
+@pytest.mark.parametrize(("name", "degree"), [("bspline2", 2), ("bspline3", 3)])
+@settings(max_examples=50)
+@given(x=place)
+def test_splines_are_those_of_de_boor(name, degree, x):
+    """Cardinal splines from truncated powers (de Boor 1978): sum (-1)^k C(n, k) (t - k)_+^(n-1)."""
+    seen, order = on_axis(SHAPES[name]((0.25,)), x), degree + 1
+    for node in range(int(x) - 3, int(x) + 5):
+        t = x - node + 0.5 * order
+        powers = [(-1) ** k * comb(order, k) * max(t - k, 0.0) ** degree for k in range(order + 1)]
+        value, _ = seen.get(node, (0.0, 0.0))
+        assert value == pytest.approx(sum(powers) / factorial(degree), abs=500 * ROUND_OFF)
+
+
+@pytest.mark.parametrize("name", ["bspline2", "bspline3"])
+@pytest.mark.parametrize("border", np.arange(8, 33) / 8.0)
+def test_slopes_of_splines_have_no_jump(name, border):
+    """The second derivative is at most 2."""
+    step, shape = 2.0**-30, SHAPES[name]((0.25,))
+    before, after = on_axis(shape, border - step), on_axis(shape, border + step)
+    for node in set(before) | set(after):
+        jump = before.get(node, (0.0, 0.0))[1] - after.get(node, (0.0, 0.0))[1]
+        assert abs(jump) <= 4.0 * step + ROUND_OFF
+
+
 @settings(max_examples=50)
 @given(x=place)
 def test_linear_is_the_hat_of_the_nearest_nodes(x):
@@ -153,10 +181,10 @@ def test_linear_is_the_hat_of_the_nearest_nodes(x):
 @settings(max_examples=25)
 @given(cells=st.tuples(place, place, place), share=st.tuples(*[st.floats(-1.0, 1.0)] * 3))
 def test_a_point_of_a_particle_has_linear_weights_at_its_nodes(shape, dim, cells, share):
-    """A point in the particle's box, or the particle where it has none: sum S x_i is the point."""
+    """A point in the particle's box (linear functions: the particle): sum S x_i is the point."""
     lattice = LATTICES[dim]
     _, _, x_i, x = in_space(shape, lattice, cells)
-    box = shape.half[0] if isinstance(shape, UniformGimp) else 0.0
+    box = 0.0 if isinstance(shape, Linear) else shape.half[0]
     point = x + lattice.width * box * np.array(share[:dim])
     local = (point - x_i[0]) / lattice.width
     S = np.array(point_weights(tuple(local.tolist()), shape))

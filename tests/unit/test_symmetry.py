@@ -5,6 +5,7 @@ import pytest
 from support import advance, build_deck
 
 from cramp_cli.boundary.symmetry import reflect, reflect_mass, stop_normal
+from cramp_cli.build.model import SHAPES
 from cramp_cli.cracks.rows import add_row
 from cramp_cli.state.grid import make_grid
 
@@ -105,7 +106,7 @@ OPEN_ALONG = crack([[0.0, -0.5], [0.0, 2.7]], "ignore")
 
 
 @pytest.mark.parametrize("update", ["flip", "fmpm(2)", "xpic(2)"])
-@pytest.mark.parametrize("shape", ["ugimp", "linear"])
+@pytest.mark.parametrize("shape", list(SHAPES))
 @pytest.mark.parametrize("tips", ["smooth", "sharp"])
 @pytest.mark.parametrize(
     ("whole", "half"),

@@ -6,6 +6,7 @@ from support import build_deck, locate
 
 from cramp_cli.boundary.conditions import add_loads, book_tractions
 from cramp_cli.boundary.traction import traction_power
+from cramp_cli.build.model import SHAPES
 from cramp_cli.cracks.fields import find_openings
 from cramp_cli.transfer.sums import sum_mass_and_momentum
 from cramp_cli.transfer.to_grid import clear
@@ -51,7 +52,7 @@ def loaded(load, per_cell=2, shape="ugimp", time=0.0, cracks=()):
 
 @ON_FACES
 @PER_CELL
-@pytest.mark.parametrize("shape", ["ugimp", "linear"])
+@pytest.mark.parametrize("shape", list(SHAPES))
 def test_sum_of_forces_is_traction_times_area(face, per_cell, shape):
     """Area = length times thickness."""
     where, _, length, _ = face

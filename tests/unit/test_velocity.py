@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 from support import advance, build_deck
 
+from cramp_cli.boundary.beyond import Beyond, follow_force, follow_increment, follow_momentum
 from cramp_cli.boundary.velocity import hold_again, hold_force, hold_momentum, hold_zero
+from cramp_cli.build.model import SHAPES
 from cramp_cli.state.grid import make_grid
 from cramp_cli.state.measures import sum_energies
 
@@ -46,13 +48,15 @@ def test_force_that_brings_held_rows_to_their_velocity(grid):
     assert work + 7.0 * 4.0 * 0.1 == pytest.approx(16.0 - 0.25)
 
 
-def test_the_books_close_for_a_bar_that_is_drawn_out():
+@pytest.mark.parametrize("shape", list(SHAPES))
+def test_the_books_close_for_a_bar_that_is_drawn_out(shape):
     """A ramp of the velocity of one end, no damping; measured 1e-5."""
     grips = [
         {"where": {"x": 0}, "fix": ["x"]},
         {"where": {"x": 8}, "velocity": {"x": 1e-3}, "in_time": {"type": "ramp", "until": 10}},
     ]
-    model, state, scratch = build_deck(PLATE, boundary=grips, cracks=[])
+    solver = {"shape": shape}
+    model, state, scratch = build_deck(PLATE, boundary=grips, cracks=[], solver=solver)
     advance(model, state, scratch, 3000)
     kinetic, stored, _ = sum_energies(state.particles)
     work = state.books.external[0]
@@ -144,3 +148,40 @@ def test_the_reaction_is_the_rate_of_momentum():
     given = state.reactions[0, 0] * model.dt
     assert given == pytest.approx(p.mass @ p.velocity[:, 0], rel=1e-12)
     assert given > 0.0
+
+
+PAIR = Beyond(0, np.array([0]), np.array([1]))  # node 0 beyond the plane, node 1 within the body
+
+
+def test_nodes_beyond_a_held_plane_move_oddly_about_it(grid):
+    """v_b + v_w = 2 V, and m_w v_w - m_b (v_b - 2 V) is kept: 3 v_w + 2 v_w = 5 - 1 + 2 * 2 * 4."""
+    follow_momentum(grid.momentum, ROWS, grid.mass, PAIR, 4.0)
+    assert grid.momentum[:, 0].tolist() == [2.0 * (8.0 - 4.0), 3.0 * 4.0, 0.0]
+    field = np.array([[1.0, 7.0], [5.0, 7.0], [9.0, 7.0]])
+    follow_increment(field, ROWS, grid.mass, PAIR)
+    assert field[:, 0] == pytest.approx([-2.6, 2.6, 9.0])  # (3 * 5 - 2 * 1) / 5
+    assert field[:, 1].tolist() == [7.0, 7.0, 7.0]
+
+
+def test_forces_that_make_a_pair_odd(grid):
+    """After p + f dt the velocities add up to 2 V; what was added is the reaction."""
+    before = grid.force[:, 0].sum()
+    reaction = follow_force(grid, ROWS, WHOLE, PAIR, 4.0, 0.1)
+    after = (grid.momentum[:2, 0] + 0.1 * grid.force[:2, 0]) / grid.mass[:2]
+    assert after.sum() == pytest.approx(8.0)
+    assert 5.0 * after[1] == pytest.approx(5.0 - 1.0 + 16.0 + 0.1 * (9.0 - 7.0))
+    assert reaction == pytest.approx(grid.force[:, 0].sum() - before)
+
+
+@pytest.mark.parametrize("shape", ["bspline2", "bspline3"])
+def test_a_plate_drawn_by_its_ends_has_one_stress(shape):
+    """A linear velocity along the plate is exact also at its held ends, whose far nodes follow."""
+    grips = [
+        {"where": {"x": 0}, "velocity": {"x": -4e-3}},
+        {"where": {"x": 8}, "velocity": {"x": 4e-3}},
+    ]
+    model, state, scratch = build_deck(PLATE, boundary=grips, cracks=[], solver={"shape": shape})
+    p = state.particles
+    p.velocity[:, 0] = 1e-3 * (p.position[:, 0] - 4.0)
+    advance(model, state, scratch, 50)
+    assert p.stress[:, 0] == pytest.approx(1e-3 * state.time, rel=1e-3)

@@ -11,6 +11,8 @@ import yaml
 from runs import INPUTS
 from support import advance, build_deck, merged
 
+from cramp_cli.build.model import SHAPES
+
 pytestmark = pytest.mark.verification
 
 STEPS = 1000
@@ -44,7 +46,7 @@ def largest_difference(ours, theirs):
     return np.abs(ours - theirs).max() / np.abs(theirs).max()
 
 
-@pytest.mark.parametrize("shape", ["linear", "ugimp"])
+@pytest.mark.parametrize("shape", list(SHAPES))
 def test_a_beam_with_a_crack_is_twice_its_half_with_a_symmetry_plane(shape):
     origin, place, stress = after(beam("ignore"), shape=shape)
     of_half, place_of_half, stress_of_half = after(beam("ignore", **UPPER_HALF), shape=shape)
@@ -56,7 +58,7 @@ def test_a_beam_with_a_crack_is_twice_its_half_with_a_symmetry_plane(shape):
     assert largest_difference(stress[upper], stress_of_half) <= 1e-10
 
 
-@pytest.mark.parametrize("shape", ["linear", "ugimp"])
+@pytest.mark.parametrize("shape", list(SHAPES))
 def test_a_glued_crack_is_no_crack(shape):
     _, place, stress = after(beam("glued"), shape=shape)
     _, place_without, stress_without = after(merged(BEAM, {"cracks": []}), shape=shape)

@@ -8,6 +8,8 @@ import pytest
 from support import advance, build_deck
 from verification.solutions import bar_impact, bar_speed, bar_step_traction, vibrating_bar
 
+from cramp_cli.build.model import SHAPES
+
 pytestmark = pytest.mark.verification
 
 LENGTH, E, RHO = 1.0, 100.0e6, 1000.0  # m, Pa, kg/m^3
@@ -98,7 +100,7 @@ def vibration_error(cells, periods, **solver):
 
 
 @pytest.mark.parametrize("update", UPDATES)
-@pytest.mark.parametrize("shape", ["linear", "ugimp"])
+@pytest.mark.parametrize("shape", list(SHAPES))
 def test_vibrating_bar_converges_with_the_square_of_the_cell(shape, update):
     errors = [vibration_error(cells, 1.0, shape=shape, update=update) for cells in (10, 20, 40)]
     orders = np.log2(errors[:-1]) - np.log2(errors[1:])
