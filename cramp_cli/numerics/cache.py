@@ -46,8 +46,9 @@ def cache_root() -> Path:
 
 
 def cache_folder() -> Path:
-    """Return the cache folder of exactly these kernels."""
-    return cache_root() / source_hash(WITH_KERNELS)
+    """Return the cache folder of exactly these kernels; those that check indices have their own."""
+    checked = "-bounds" if os.environ.get("NUMBA_BOUNDSCHECK", "0") not in ("", "0") else ""
+    return cache_root() / f"{source_hash(WITH_KERNELS)}{checked}"
 
 
 def recall(name: str) -> dict:

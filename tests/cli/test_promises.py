@@ -418,5 +418,8 @@ def test_8_the_cache_is_named_by_the_sources_of_kernels(tmp_path, monkeypatch):
     before = cache.cache_folder()
     (tmp_path / "output/b.py").write_text("x = 2\n")
     assert cache.cache_folder() == before
+    monkeypatch.setenv("NUMBA_BOUNDSCHECK", "1")
+    assert cache.cache_folder() != before
+    monkeypatch.delenv("NUMBA_BOUNDSCHECK")
     (tmp_path / "cracks/a.py").write_text("x = 2\n")
     assert cache.cache_folder() != before

@@ -14,7 +14,8 @@ LAYERS = (
     ("numerics",),
     ("state", "schema"),
     ("shapes", "materials", "cohesive"),
-    ("transfer", "cracks"),
+    ("transfer",),
+    ("cracks",),
     ("boundary", "contact"),  # conditions act on the rows that cracks make
     ("grid_velocity", "scratch"),
     ("step",),
