@@ -28,6 +28,7 @@ class Segments(NamedTuple):
         np.ndarray
     )  # (segments, 4) a hair below the crack at both ends, the same for neighbours (m)
     crack: np.ndarray  # (segments,) crack of each segment, ascending
+    seen: np.ndarray  # (segments,) on which side of each segment a place lies, `look_from`
     head: np.ndarray  # (nodes,) first entry of the list of a cell (by its lowest node), or -1
     item: np.ndarray  # (entries,) segment of an entry
     next: np.ndarray  # (entries,) next entry of the same cell, or -1; segments ascend
@@ -42,6 +43,7 @@ def make_segments(node_count: int, segment_count: int, entries: int) -> Segments
         real=np.zeros((segment_count, 4)),
         down=np.zeros((segment_count, 4)),
         crack=np.zeros(segment_count, dtype=np.int64),
+        seen=np.zeros(segment_count),
         head=np.full(node_count, -1, dtype=np.int64),
         item=np.zeros(entries, dtype=np.int64),
         next=np.zeros(entries, dtype=np.int64),
@@ -111,6 +113,55 @@ def crosses(ends, down, s, px, py, nx, ny, tolerance):
 
 
 @inlined_kernel
+def box_around(px, py, nx, ny, more):
+    """Return lower and upper corner of the line p -> n, a little `more` on all sides."""
+    low, high = (min(px, nx) - more, min(py, ny) - more), (max(px, nx) + more, max(py, ny) + more)
+    return low, high
+
+
+@inlined_kernel
+def reaches(ends, s, box):
+    """Return whether a segment may reach into a box."""
+    ax, ay, bx, by = ends[s, 0], ends[s, 1], ends[s, 2], ends[s, 3]
+    (x0, y0), (x1, y1) = box
+    across = max(ax, bx) >= x0 and min(ax, bx) <= x1
+    return across and max(ay, by) >= y0 and min(ay, by) <= y1
+
+
+@inlined_kernel
+def look_from(segments, cell, x, y, tolerance):
+    """Note on which side of the segments about a cell a place lies, as 1, -1 or 0 for on its line.
+
+    Asked once for a particle, it settles most of its lines to nodes (`sees_past_all`).
+    """
+    ends, entry = segments.ends, segments.head[cell]
+    while entry >= 0:
+        s = segments.item[entry]
+        segments.seen[s] = side_of_line(ends, s, x, y, tolerance)
+        entry = segments.next[entry]
+
+
+@inlined_kernel
+def sees_past_all(segments, cell, x, y, tolerance):
+    """Return whether a place lies on the side noted by `look_from` of all segments about a cell."""
+    ends, entry = segments.ends, segments.head[cell]
+    while entry >= 0:
+        s = segments.item[entry]
+        if side_of_line(ends, s, x, y, tolerance) * segments.seen[s] <= 0.0:
+            return False
+        entry = segments.next[entry]
+    return True
+
+
+@inlined_kernel
+def side_of_line(ends, s, x, y, tolerance):
+    """Return 1 above the line of a segment, -1 below it, 0 on it, within the limit of `crosses`."""
+    ax, ay, bx, by = ends[s, 0], ends[s, 1], ends[s, 2], ends[s, 3]
+    area, limit = double_area(ax, ay, bx, by, x, y), tolerance * (abs(bx - ax) + abs(by - ay))
+    return (1.0 if area > limit else 0.0) - (1.0 if area < -limit else 0.0)
+
+
+@inlined_kernel
 def crossed_cracks(segments, cell, px, py, nx, ny, tolerance):
     """Return the first two cracks that the line p -> n crosses.
 
@@ -123,14 +174,17 @@ def crossed_cracks(segments, cell, px, py, nx, ny, tolerance):
     a, side_a, seg_a = -1, 0, -1
     b, side_b, seg_b = -1, 0, -1
     more = 0
+    box = box_around(px, py, nx, ny, 4.0 * HAIR / ON_CRACK * tolerance)
     entry = segments.head[cell]
     while entry >= 0:
         crack = owner[item[entry]]
         side, up, down = 0, -1, -1  # crossings alternate along the line: their sum is the side of p
         while entry >= 0 and owner[item[entry]] == crack:
-            hit = crosses(ends, segments.down, item[entry], px, py, nx, ny, tolerance)
+            s, hit = item[entry], 0
+            if reaches(ends, s, box):  # most segments about a cell do not
+                hit = crosses(ends, segments.down, s, px, py, nx, ny, tolerance)
             side += hit
-            up, down = item[entry] if hit > 0 else up, item[entry] if hit < 0 else down
+            up, down = s if hit > 0 else up, s if hit < 0 else down
             entry = following[entry]
         seg = up if side > 0 else down
         if side % 2 != 0:

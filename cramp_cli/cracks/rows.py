@@ -3,8 +3,8 @@
 A row of a node is told by the contact group of its particles (state/groups.py), the cracks that the
 lines from them cross and the sides they come from. So the result does not depend on the order of
 particles, any number of cracks may meet at a node, and contact acts between rows that differ by
-exactly one crack, or of two bodies. A particle that a tip is passing is part cut (tip_nodes.py): it
-gives a share of its weight to the row of its side and the rest to the row that both sides share.
+exactly one crack, or of two bodies. A particle that a tip is passing is part cut (tip_nodes.py): a
+share of its weight goes to the row of its side, the rest to both sides (tip_shares.py).
 """
 
 import numpy as np
@@ -15,13 +15,17 @@ from cramp_cli.cracks.crossing import (
     crossed_cracks,
     crosses,
     double_area,
+    look_from,
     off_crack,
+    sees_past_all,
 )
 from cramp_cli.cracks.tip_nodes import cut_share
 from cramp_cli.cracks.tip_shares import far_share
 from cramp_cli.numerics.kernel import inlined_kernel, kernel
 from cramp_cli.shapes.shape import node_steps, offsets
 from cramp_cli.state.stencil import AROUND, CLOSE, FAR
+
+NO_CRACK = (-1, 0, -1, -1, 0, -1, 0)  # what `crossed_cracks` says of a free line
 
 
 @kernel
@@ -363,18 +367,21 @@ def assign_rows(
             continue
         listed[line], stencil.near[p], stencil.entries[line] = p, line, 0
         x, y = off_crack(segments, cell, x, y, tolerance)
+        look_from(segments, cell, x, y, tolerance)
         known, cut, gx, gy = -1, 1.0, 0.0, 0.0
         for k in range(len(steps)):
             nx = lower[0] + width * (corner[0] + k % side)
             ny = lower[1] + width * (corner[1] + k // side)
             node = base[p] + steps[k]
-            nx, ny = off_crack(segments, cell, nx, ny, tolerance)
             tip = rows.tip[node]
             tip = -1 if tip >= 0 and of_crack[tip // 2] != group else tip
-            own = tip // 2 if tip >= 0 else -1
-            crossed = crossed_cracks(segments, cell, x, y, nx, ny, tolerance)
-            crossed = without_imagined(segments, crossed, own, x, y, nx, ny, tolerance)
-            crossed = of_group(crossed, of_crack, group)
+            crossed = NO_CRACK
+            if not sees_past_all(segments, cell, nx, ny, tolerance):
+                own = tip // 2 if tip >= 0 else -1
+                nx, ny = off_crack(segments, cell, nx, ny, tolerance)
+                crossed = crossed_cracks(segments, cell, x, y, nx, ny, tolerance)
+                crossed = without_imagined(segments, crossed, own, x, y, nx, ny, tolerance)
+                crossed = of_group(crossed, of_crack, group)
             if tip < 0:
                 give_row(stencil, rows, segments.ends, line, k, node, group, crossed)
                 continue
