@@ -34,7 +34,7 @@ FAMILIES = {
     "shapes": "shape",
     "curve": "curve",
     "loads": "load",
-    "cracks": "contact law",
+    "contact": "contact law",
     "materials": "material",
     "anisotropic": "material",
     "hardening": "hardening",
