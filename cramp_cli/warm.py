@@ -22,7 +22,10 @@ cramp: 1
 analysis: plane_strain
 grid: {cell: 1}
 materials: {m: {law: elastic, density: 1, E: 1, nu: 0.3, toughness: {K_Ic: 1}}}
-bodies: [{name: b, material: m, shape: {type: rectangle, lower: [0, 0], upper: [20, 10]}}]
+bodies:
+  - {name: b, material: m, shape: {type: rectangle, lower: [0, 0], upper: [20, 10]}}
+  - {name: r, rigid: {}, shape: {type: rectangle, lower: [0, 10], upper: [4, 12]}}
+contact: {bodies: {law: frictional}}
 cracks: [{name: c, points: [[0, 5], [10, 5]], start: edge}]
 boundary:
   - {where: {x: 20}, symmetry: true}

@@ -6,7 +6,7 @@ from pydantic import Field
 
 from cramp_cli.deck.shapes import AnyShape
 from cramp_cli.schema.curve import Constant, Curve
-from cramp_cli.schema.section import Count, Flag, Name, Section, Wrong, only_one
+from cramp_cli.schema.section import Count, Flag, Name, Section, Wrong
 from cramp_cli.schema.units import AngularVelocity, Length, Point, Velocity, pair
 
 FIT = 1e-6  # of a cell: how well a box must fit whole cells, and a plane a grid line
@@ -77,7 +77,6 @@ class BodySection(Section):
     @classmethod
     def wrong_keys(cls, keys: set[str]) -> Iterator[Wrong]:
         """A body is made of something; a hole is not."""
-        yield from only_one(keys, ("hole", "rigid"), needed=False)
         if not keys & {"hole", "rigid", "material"}:
             yield ("material",), "is missing"
 
@@ -87,6 +86,8 @@ class BodySection(Section):
             if self.material is None:
                 yield ("material",), "is missing"
             return
+        if self.hole and self.rigid is not None:
+            yield ("rigid",), "does not go with hole: true"
         for key in ("material", "velocity", "angular_velocity", "particles_per_cell"):
             free = self.rigid is not None and key == "particles_per_cell"
             if not free and getattr(self, key) != type(self).model_fields[key].default:

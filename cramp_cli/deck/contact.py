@@ -6,7 +6,7 @@ from typing import Literal
 from pydantic import Field
 
 from cramp_cli.schema.section import Name, Section, Wrong, one_of
-from cramp_cli.schema.units import Number, pair
+from cramp_cli.schema.units import Number
 
 LAW = "kind of contact"
 
@@ -50,7 +50,7 @@ AnyContact = one_of("law", Frictional, Ignore, Stick, Glued)
 class PairContact(Section):
     """Contact of two bodies."""
 
-    bodies: pair(Name) = Field(description="names of the two bodies")
+    bodies: tuple[Name, Name] = Field(description="names of the two bodies")
     contact: AnyContact = Field(description="their law")
 
 

@@ -35,7 +35,7 @@ FAMILIES = {
     "shapes": "shape",
     "curve": "curve",
     "loads": "load",
-    "cracks": "contact law",
+    "contact": "contact law",
     "cohesive": "traction law",
     "materials": "material",
     "anisotropic": "material",

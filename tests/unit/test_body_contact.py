@@ -308,7 +308,15 @@ WRONG = {
         {"cracks": [{"name": "c", "points": [[1, 3], [7, 3]]}]},
     ),
     "bodies: are all rigid": ([WALL], {}),
+    "bodies.hole.rigid: does not go with hole": ([LEFT, HOLE | {"rigid": {}}], {}),
 }
+
+
+def test_a_resolved_deck_with_contact_reads_back():
+    pair = {"bodies": ["left", "wall"], "contact": {"law": "stick"}}
+    contact = ON | {"groups": [["left", "top"]], "pairs": [pair], "normal": "average"}
+    first = read(deck(LEFT, box("top", (0, 4), (6, 8)), WALL, contact=contact))
+    assert read(first.resolved()).model_dump() == first.model_dump()
 
 
 @pytest.mark.parametrize("message", WRONG)
