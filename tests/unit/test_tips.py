@@ -5,10 +5,10 @@ import pytest
 from support import advance, build_deck, locate
 
 from cramp_cli.cracks.cloud import cloud_around
+from cramp_cli.cracks.domain import hooke_of
 from cramp_cli.cracks.tips import (
     block_at,
     crack_length,
-    hooke_of,
     sample_tips,
     site_of,
     tips_of,
