@@ -74,6 +74,7 @@ class Model:
     conditions: Any  # boundary conditions and loads
     fracture: Any = None  # how J and K are evaluated
     propagation: Any = None  # when, where to and how fast cracks grow; None: they do not
+    calm_tips: bool = False  # filter particles around running tips: FLIP does not by itself
     tip_nodes: TipNodes | None = None  # None: cut at once, by the line test alone (the paper)
     strides: tuple = field(init=False)
 
