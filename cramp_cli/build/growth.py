@@ -10,10 +10,10 @@ from cramp_cli.cracks.criteria.max_energy_release_rate import MaxEnergyReleaseRa
 from cramp_cli.cracks.criteria.max_hoop_stress import MaxHoopStress
 from cramp_cli.cracks.criteria.steady_state import SteadyState
 from cramp_cli.cracks.criteria.strain_energy_density import StrainEnergyDensity
+from cramp_cli.cracks.domain import hooke_of
 from cramp_cli.cracks.grow import Propagation, Resistance
 from cramp_cli.cracks.rayleigh import rayleigh_speed, wave_speeds
 from cramp_cli.cracks.speed import EnergyBalance, Prescribed, RisingToughness, ToughnessTable
-from cramp_cli.cracks.tips import hooke_of
 
 
 def build_propagation(deck, blocks, geometry) -> Propagation | None:

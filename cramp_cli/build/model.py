@@ -58,6 +58,7 @@ def build(deck: Deck) -> tuple[Model, State]:
         geometry=geometry,
         blocks=blocks,
         update=_update(deck.solver),
+        calm_tips=deck.solver.update_name == "flip",
         scheme=SCHEMES[deck.solver.strain],
         damping=(deck.solver.damping.grid, deck.solver.damping.particle),
         dt=time_step(deck),

@@ -15,7 +15,6 @@ from cramp_cli.cracks.tip_nodes import FAR, along_crack
 from cramp_cli.numerics.kernel import kernel
 from cramp_cli.shapes.shape import offsets, weights
 from cramp_cli.state.growth import running_tips
-from cramp_cli.transfer.update import Flip
 
 HELD, FREE = 2.0, 3.0  # cells behind a tip up to where faces are resisted in full, and at all
 RESISTED = 0.7  # share of the momentum that parts two faces, taken in a step
@@ -74,8 +73,8 @@ def calm_running_tips(model, state, scratch) -> None:
     weight of a place: the filter of second order of Hammerquist and Nairn (2017), near a tip only.
     Momentum stays to round-off, energy can only fall.
     """
-    width, keeps = model.lattice.width, isinstance(model.update, Flip)
-    for tip in running_tips(state.growth) if keeps else ():
+    width = model.lattice.width
+    for tip in running_tips(state.growth) if model.calm_tips else ():
         end = state.paths.start[tip // 2 + tip % 2] - tip % 2
         place = state.paths.origin[end]
         chosen = started_around(model, state, scratch, place, (CORE + SKIN + SEEN) * width)

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from cramp_cli.cracks.domain import domain_values
 from cramp_cli.cracks.domain_integral import inner_radius
 from cramp_cli.cracks.face_terms import drawn, rubbed_off
 from cramp_cli.cracks.kink import LARGEST, kinked
@@ -23,7 +24,6 @@ from cramp_cli.cracks.tips import (
     SMALLEST,
     USUAL,
     Tip,
-    domain_values,
     is_closed,
     site_at,
 )

@@ -8,7 +8,7 @@ number. A crack on a symmetry plane has half a domain; the other half is its ima
 
 from dataclasses import dataclass
 from math import hypot, nan
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -16,21 +16,12 @@ from cramp_cli.cracks.cloud import Cloud, cloud_around
 from cramp_cli.cracks.contact import GLUED, IGNORE, OPEN
 from cramp_cli.cracks.contour_integral import along, integrate_contour
 from cramp_cli.cracks.crossing import ON_CRACK
-from cramp_cli.cracks.domain_integral import (
-    Hooke,
-    TipFrame,
-    inner_radius,
-    integral_of_weight,
-    integrate_domain,
-    material_beside,
-)
+from cramp_cli.cracks.domain import LEAK, Values, domain_values, hooke_of
+from cramp_cli.cracks.domain_integral import Hooke, TipFrame, inner_radius, material_beside
 from cramp_cli.cracks.doubts import doubts
 from cramp_cli.cracks.face_terms import drawn, rubbed_off, zone_energy
 from cramp_cli.cracks.intensity import K_from_J, open_and_slide, opening_near_tip
 from cramp_cli.cracks.room import find_room
-from cramp_cli.cracks.second_material import add_difference
-from cramp_cli.materials.geometry import is_plane_stress
-from cramp_cli.materials.law import poisson_ratio, same_law, shear_modulus
 from cramp_cli.state.growth import BLEND, HELD, KINK, MIXED
 from cramp_cli.state.paths import TIP
 
@@ -45,8 +36,6 @@ STAGES = {
     BLEND: "kink: partly from the field around the corner",
     HELD: "held: no room for a domain, the last load found",
 }
-BARE = 0.5  # a particle of another material nearer to the tip than this leaves no K (cells)
-LEAK = 0.02  # part of the domain that may be empty: particles are a coarse quadrature
 
 
 @dataclass(frozen=True)
@@ -208,13 +197,6 @@ def block_at(model, cloud, place):
     return next(block for block, lo, hi in cloud.parts if lo <= nearest < hi)
 
 
-def hooke_of(law, geometry) -> Hooke:
-    """Return the elastic constants of a law in the plane; nan if it has none, K is nan then."""
-    shear, nu = shear_modulus(law), poisson_ratio(law)
-    plane_nu = nu / (1.0 + nu) if is_plane_stress(geometry) else nu
-    return Hooke(shear, 3.0 - 4.0 * plane_nu, plane_nu, 2.0 * shear / (1.0 - plane_nu))
-
-
 def _measure_contour(model, state, scratch, tip, site, normal, slide):
     if site.half:
         return {}, "contour invalid: the crack lies on a symmetry plane"
@@ -294,62 +276,12 @@ def _spread(measured, others) -> float:
     return (max(*values, J) - min(*values, J)) / abs(J) if J else 0.0
 
 
-class Values(NamedTuple):
-    """What a domain gives."""
-
-    J: float  # J/m^2; of K where the domain holds a second material
-    K_I: float  # Pa sqrt(m)
-    K_II: float  # Pa sqrt(m)
-    spoiled: str  # what spoils the domain; empty if nothing does
-    mixed: bool  # it holds a second material
-
-
 def tip_values(model, state, site, tip, radius) -> Values:
     """Return what a domain gives without what the faces carry."""
     found = domain_values(model, site, radius)
     inner = inner_radius(radius, model.lattice.width)
     J, K_I, K_II = drawn(model, state, tip, site.frame.now, inner, radius).tolist()
     return found._replace(J=found.J - J, K_I=found.K_I - K_I, K_II=found.K_II - K_II)
-
-
-def domain_values(model, site, radius, inner=None) -> Values:
-    """Return J, K_I, K_II of a domain, and what spoils it.
-
-    inner: radius (m) within which the weight is 1; chosen if not given
-    """
-    inner = inner_radius(radius, model.lattice.width) if inner is None else inner
-    sums, own, known = np.zeros(4), 0.0, True
-    for block, lo, hi in site.cloud.parts:
-        particles, same = site.cloud.particles, same_law(block.law, site.block.law)
-        part = integrate_domain(
-            particles, site.frame, site.hooke, site.gravity, inner, radius, lo, hi
-        )
-        sums += part
-        own += part[3] if same else 0.0
-        if not same and part[3] > 0.0:
-            other = hooke_of(block.law, model.geometry)
-            more = add_difference(particles, site.frame, site.hooke, other, inner, radius, lo, hi)
-            sums[1:3] += more
-            known = known and not np.isnan(other.shear) and _is_clear(model, site, lo, hi)
-    per_length = (2.0 if site.half else 1.0) / model.geometry.thickness
-    J, K_I, K_II, filled = (per_length * sums).tolist()
-    K_II = 0.0 if site.half else K_II
-    expected = integral_of_weight(inner, radius)
-    mixed = abs(per_length * own / expected - 1.0) >= LEAK
-    spoiled = ""
-    if abs(filled / expected - 1.0) >= LEAK:
-        spoiled = "the edge of the body"
-    elif mixed and not known:
-        spoiled = "another material"
-    if mixed and not spoiled:
-        J = (K_I**2 + K_II**2) / site.hooke.stiffness
-    return Values(J, K_I, K_II, spoiled, mixed)
-
-
-def _is_clear(model, site, lo, hi) -> bool:
-    """Return whether particles lo..hi keep away from the tip: on an interface there is no K."""
-    away = site.cloud.particles.origin[lo:hi] - site.frame.origin
-    return float(np.hypot(*away.T).min()) > BARE * model.lattice.width
 
 
 def crack_length(paths, crack: int) -> float:

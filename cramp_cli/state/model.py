@@ -79,6 +79,7 @@ class Model:
     cohesion: Any = None  # traction laws of crack faces; None: there are none
     propagation: Any = None  # when, where to and how fast cracks grow; None: they do not
     leaving: str = "error"  # what particles that leave the grid are: transfer/leaving.py
+    calm_tips: bool = False  # filter particles around running tips: FLIP does not by itself
     tip_nodes: TipNodes | None = None  # None: cut at once, by the line test alone (the paper)
     strides: tuple = field(init=False)
 

@@ -91,7 +91,7 @@ def test_columns_are_those_of_the_manual():
 def test_every_column_has_unit_and_meaning(tmp_path):
     write_columns(tmp_path, history_columns(["reaction_grip_x"]))
     told = json.loads((tmp_path / "columns.json").read_text())
-    assert set(told) == {"history.csv", "cracks.csv", "growth.csv"}
+    assert set(told) == {"history.csv", "cracks.csv", "growth.csv", "path.csv"}
     assert told["cracks.csv"]["K_I"]["unit"] == "Pa*m^0.5"
     assert told["history.csv"]["reaction_grip_x"]["unit"] == "N"
     assert all(column["meaning"] for table in told.values() for column in table.values())

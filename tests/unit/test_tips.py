@@ -5,10 +5,10 @@ import pytest
 from support import advance, build_deck, locate
 
 from cramp_cli.cracks.cloud import cloud_around
+from cramp_cli.cracks.domain import hooke_of
 from cramp_cli.cracks.tips import (
     block_at,
     crack_length,
-    hooke_of,
     sample_tips,
     site_of,
     tips_of,
@@ -285,8 +285,8 @@ def test_a_solid_that_turns_fast_makes_k_of_its_own():
 
 
 def test_a_tip_close_to_another_material_is_corrected():
-    """Two cells before the second half no domain of one material fits; on the border none does."""
-    near, on = inner((0, 10), (13, 10), start="edge"), inner((0, 10), (15, 10), start="edge")
+    """A cell before the second half no domain of one material fits; on the border none does."""
+    near, on = inner((0, 10), (14, 10), start="edge"), inner((0, 10), (15, 10), start="edge")
     fracture = {"methods": ["domain"]}
     row = sampled(near, bodies=pieces("soft", "hard"), fracture=fracture)["c0", "end"]
     assert row["status"] == "corrected: the domain holds another material"

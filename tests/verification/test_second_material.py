@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from support import advance, build_deck
 
-from cramp_cli.cracks.tips import domain_values, site_of, tips_of
+from cramp_cli.cracks.domain import domain_values
+from cramp_cli.cracks.tips import site_of, tips_of
 from cramp_cli.cracks.williams import unit_stress, unit_stress_slope
 
 pytestmark = pytest.mark.verification
@@ -35,15 +36,21 @@ solver: {{end_time: 60 us, damping: {{grid: 3.0e5 1/s}}}}
 @pytest.mark.slow
 @pytest.mark.parametrize("stiff", ["25 GPa", "0.25 GPa"])
 def test_radius(stiff):
-    """Ten times stiffer and softer: of 2.5 cells without it, of 5 and 6 with a part of it."""
+    """Ten times stiffer and softer: of 2.5 cells without it, of 5 and 6 with a part of it.
+
+    Reached on 2026-11-22: 0.1 % between 5 and 6 cells, 6 % from the smallest domain there is.
+    Without the term it is 5 to 8 % between 5 and 6 cells, and up to 20 % from the smallest.
+    """
     model, state, scratch = build_deck(DECK.replace("STIFF", stiff))
     advance(model, state, scratch, int(40e-6 / model.dt))
     site = site_of(model, state, scratch, tips_of(state.paths)[0])
     small, *others = (domain_values(model, site, cells * CELL) for cells in (2.5, 5.0, 6.0))
     assert [small.mixed, *(other.mixed for other in others)] == [False, True, True]
-    for other in others:
-        assert abs(other.K_I / small.K_I - 1.0) < 0.02
-        assert abs(other.K_II - small.K_II) < 0.02 * small.K_I
+    five, six = others
+    assert abs(six.K_I / five.K_I - 1.0) < 0.01
+    assert abs(six.K_II - five.K_II) < 0.01 * five.K_I
+    assert abs(five.K_I / small.K_I - 1.0) < 0.08
+    assert abs(five.K_II - small.K_II) < 0.02 * small.K_I
 
 
 @pytest.mark.parametrize("mode", [1, 2])
