@@ -88,7 +88,8 @@ def surface_motion(grid, rows, segments, crack, side, cut, q, x, cells, width, l
                 continue
             # as a particle there: the share of the side, and of the mean of both sides
             part, both = near / (near + far), S * (near + (1.0 - cut) * far)
-            for row, share in ((mine, cut + (1.0 - cut) * part), (facing, (1.0 - cut) * (1.0 - part))):
+            shares = (cut + (1.0 - cut) * part, (1.0 - cut) * (1.0 - part))
+            for row, share in zip((mine, facing), shares):  # noqa: B905 - numba knows no strict
                 if row < 0 or share == 0.0:
                     continue
                 w = both * share

@@ -71,7 +71,13 @@ def _look_around_tips(model, state, scratch) -> None:
     lattice, rows, particles = model.lattice, scratch.rows, state.particles
     grid = (lattice.cells, lattice.width, lattice.lower, model.strides)
     mark_tip_nodes(rows, state.paths, scratch.segments, smooth_cracks(model), *grid)
-    place = (particles.position, particles.mass, model.blocks[0].shape, model.strides, lattice.width)
+    place = (
+        particles.position,
+        particles.mass,
+        model.blocks[0].shape,
+        model.strides,
+        lattice.width,
+    )
     sum_sides(rows, scratch.stencil, state.paths, *place, *model.tip_nodes)
     for m in (plane.mirror for plane in model.conditions.mirrors):
         if m.crack >= 0:
