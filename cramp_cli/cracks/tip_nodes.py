@@ -1,14 +1,11 @@
 """Particles beside a tip are part cut, so that a tip is felt at any place within its cell.
 
 With the line test alone a pair of particle and node falls from whole to cut at once when the tip
-passes
-it: the jump across the crack ends abruptly somewhere around the tip, up to a third of a cell ahead
-of it, by an amount that changes from node to node and with the height of the crack in its cell.
-Here the cut share q of a particle rises from 0 at the tip to 1 some way behind it. The particle
-gives q S to the row of its side and (1 - q) S to the row that both sides share, at every node
-around the tip. So the
-jump is q S times the difference of the two sides: it vanishes at the tip, and its gradient holds
-that of q. Both sides are treated alike wherever the nodes lie.
+passes it: the jump across the crack ends abruptly somewhere around the tip, up to a third of a cell
+ahead of it, by an amount that changes from node to node and with the height of the crack in its
+cell. Here the cut share q of a particle rises from 0 at the tip to 1 some way behind it. The jump
+of the velocity is q times the difference of the two sides of a node: it vanishes at the tip, and
+its gradient holds that of q. What is whole moves with the mean of both sides (tip_shares.py).
 """
 
 from math import inf, sqrt

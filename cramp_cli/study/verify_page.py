@@ -110,7 +110,8 @@ def _draw(plt, case: Expectation, run: Path):
     window = entries[0].curve
     panel.axvspan(window.start / time.size, window.until / time.size, color="#F3F3F3", zorder=-1)
     panel.axhline(0.0, color=BLACK, lw=0.5, zorder=0)
-    panel.set(xlabel=label("time", time), ylabel=label("$K$", size), title=title_of(case))
+    what = "$K$" if entries[0].tip else name_of(entries[0].column)
+    panel.set(xlabel=label("time", time), ylabel=label(what, size), title=title_of(case))
     panel.margins(x=0.01)
     panel.legend(ncols=len(entries))
     return figure
