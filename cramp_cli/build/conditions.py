@@ -150,6 +150,7 @@ class _Builder:
                     )
                 found = c
                 self._no_contact(c)
+                self._no_traction(c)
                 along = line[-1, 1 - axis] - line[0, 1 - axis]
                 left = np.sign(along) * (1 if axis == 1 else -1)  # above the crack is +axis
                 self.paths.mirror[c] = axis, int(side * left)
@@ -158,14 +159,21 @@ class _Builder:
     def _no_contact(self, crack):
         """A crack on a symmetry plane has one side only: nothing there could press on it."""
         section = self.deck.cracks[crack]
-        if section.traction is not None:
-            message = "a crack on a symmetry plane can have none: model both halves"
-            self.wrong(("cracks", crack, "traction"), message)
         law = self.deck.contact_of(section).law
         if law != "ignore":
             path = ("cracks", crack, "contact") if section.contact else ("cracks", crack)
             message = f"'{law}' does not act on a symmetry plane: give contact: {{law: ignore}}"
             self.wrong(path, message)
+
+    def _no_traction(self, crack):
+        """The gap of a crack on a symmetry plane, of which one face is an image, is not known."""
+        message = "a crack on a symmetry plane can have none: model both halves"
+        section, growth = self.deck.cracks[crack], self.deck.propagation
+        if section.traction is not None:
+            self.wrong(("cracks", crack, "traction"), message)
+        grows = growth is not None and section.name in (growth.cracks or (section.name,))
+        if grows and growth.traction is not None:
+            self.wrong(("propagation", "traction"), message)
 
     def add_force(self, number, load):
         """Add forces on the particles of a body."""

@@ -10,11 +10,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cramp_cli.cohesive.law import respond, stored
 from cramp_cli.cohesive.pressure import Pressure
-from cramp_cli.cracks.advect import OFF_PLANE, look_around, make_seen, side_normal
+from cramp_cli.cracks.advect import make_seen
+from cramp_cli.cracks.faces import lay_out_faces, pull_points, spread, sum_stored
 from cramp_cli.cracks.fields import cut_of_points
-from cramp_cli.numerics.kernel import kernel
 
 
 @dataclass(frozen=True)
@@ -32,118 +31,10 @@ class Cohesion:
             for law, curve in zip(self.laws, self.curves, strict=True)
         ]
 
-
-@kernel
-def separation(paths, k, n, ahead):
-    """Return opening and sliding of the faces at point k (m), carried on by a time `ahead` (s).
-
-    n: unit normal of the crack there; sliding is positive where the upper face goes ahead
-    """
-    above, below, up, down = paths.above, paths.below, paths.above_velocity, paths.below_velocity
-    gx = above[k, 0] - below[k, 0] + ahead * (up[k, 0] - down[k, 0])
-    gy = above[k, 1] - below[k, 1] + ahead * (up[k, 1] - down[k, 1])
-    return gx * n[0] + gy * n[1], gx * n[1] - gy * n[0]
-
-
-@kernel
-def share_of_crack(paths, k, first, last):
-    """Return the length of undeformed crack that point k stands for (m).
-
-    It is half of the pieces beside the point, of those that carry a law at both ends.
-    """
-    length, law, X = 0.0, paths.law, paths.origin
-    for other in (k - 1, k + 1):
-        if first <= other <= last and law[other] >= 0:
-            length += 0.5 * np.hypot(X[other, 0] - X[k, 0], X[other, 1] - X[k, 1])
-    return length
-
-
-@kernel
-def pull_points(traction, paths, law, number, ahead, suffers):
-    """Set the stress vector with which the upper face draws the lower one, where a law acts.
-
-    traction: (points, 2), Pa; ahead: as in `separation`; suffers: whether damage is kept
-    """
-    damage, spent = paths.damage, paths.spent
-    for c in range(len(paths.start) - 1):
-        first, last = paths.start[c], paths.start[c + 1] - 1
-        for k in range(first, last + 1):
-            if paths.law[k] != number:
-                continue
-            n = side_normal(paths.point, k, first, last)
-            normal, sliding = separation(paths, k, n, ahead)
-            t_n, t_t, grown, opened, slid = respond(law, normal, sliding, damage[k])
-            traction[k, 0] = t_n * n[0] + t_t * n[1]
-            traction[k, 1] = t_n * n[1] - t_t * n[0]
-            if suffers:
-                damage[k] = grown
-                spent[k, 0] += opened
-                spent[k, 1] += slid
-
-
-@kernel
-def spread(
-    force, up, down, traction, paths, cut, mass, rows, segments, of_crack, thickness,
-    cells, width, lower, strides,
-):  # fmt: skip
-    """Add the tractions to the forces of the rows, equal and opposite on both sides.
-
-    up, down: room for what the two surfaces of a point see; where one of them sees no solid the
-    point gives no force, and its traction is set to zero
-    """
-    for c in range(len(paths.start) - 1):
-        first, last = paths.start[c], paths.start[c + 1] - 1
-        for k in range(first, last + 1):
-            if traction[k, 0] == 0.0 and traction[k, 1] == 0.0:
-                continue
-            n, off = side_normal(paths.point, k, first, last), OFF_PLANE * width
-            x, y = paths.point[k, 0], paths.point[k, 1]
-            above = (paths.above[k, 0], paths.above[k, 1])
-            below = (paths.below[k, 0], paths.below[k, 1])
-            over, under = (x + off * n[0], y + off * n[1]), (x - off * n[0], y - off * n[1])
-            grid, place = (mass, rows, segments, of_crack, c), (cells, width, lower, strides)
-            count_up, total_up = look_around(up, True, *grid, 1, cut[k], over, above, *place)
-            count_down, total_down = look_around(
-                down, True, *grid, -1, cut[k], under, below, *place
-            )
-            if total_up <= 0.0 or total_down <= 0.0:
-                traction[k, 0] = traction[k, 1] = 0.0
-                continue
-            area = thickness * share_of_crack(paths, k, first, last)
-            give(force, up, count_up, traction, k, -area / total_up)
-            give(force, down, count_down, traction, k, area / total_down)
-
-
-@kernel
-def give(force, seen, count, traction, k, factor):
-    """Add the traction of point k times a factor to the rows that a surface sees."""
-    for e in range(count):
-        force[seen.row[e], 0] += factor * seen.weight[e] * traction[k, 0]
-        force[seen.row[e], 1] += factor * seen.weight[e] * traction[k, 1]
-
-
-@kernel
-def sum_stored(paths, law, number):
-    """Return the energy per thickness that the faces of a law would give back (J/m)."""
-    total = 0.0
-    for c in range(len(paths.start) - 1):
-        first, last = paths.start[c], paths.start[c + 1] - 1
-        for k in range(first, last + 1):
-            if paths.law[k] == number:
-                n = side_normal(paths.point, k, first, last)
-                normal, sliding = separation(paths, k, n, 0.0)
-                energy = stored(law, normal, sliding, paths.damage[k])
-                total += energy * share_of_crack(paths, k, first, last)
-    return total
-
-
-@kernel
-def lengths(length, paths):
-    """Set the length of crack that every point stands for, 0 where no law acts (points,), m."""
-    for c in range(len(paths.start) - 1):
-        first, last = paths.start[c], paths.start[c + 1] - 1
-        for k in range(first, last + 1):
-            length[k] = share_of_crack(paths, k, first, last) if paths.law[k] >= 0 else 0.0
+    def presses(self, paths) -> np.ndarray:
+        """Return whether the law of each crack point is a pressure (points,)."""
+        numbers = [n for n, law in enumerate(self.laws) if isinstance(law, Pressure)]
+        return np.isin(paths.law, numbers)
 
 
 def draw_faces(model, state, scratch) -> None:
@@ -155,15 +46,15 @@ def draw_faces(model, state, scratch) -> None:
     scratch.parted = ()
     if model.cohesion is None:
         return
-    paths, lattice = state.paths, model.lattice
+    paths, lattice, faces = state.paths, model.lattice, lay_out_faces(state.paths)
     before, traction = paths.damage.copy(), np.zeros_like(paths.point)
     for number, law in enumerate(model.cohesion.at(state.time)):
-        pull_points(traction, paths, law, number, 0.5 * model.dt, True)
+        pull_points(traction, paths, faces.normal, law, number, 0.5 * model.dt, True)
+    place = (lattice.cells, lattice.width, lattice.lower, model.strides)
     spread(
-        scratch.grid.force, make_seen(), make_seen(), traction, paths, cut_of_points(model, paths),
-        scratch.grid.mass, scratch.rows, scratch.segments, model.groups.of_crack,
-        model.geometry.thickness,
-        lattice.cells, lattice.width, lattice.lower, model.strides,
+        scratch.grid.force, make_seen(), make_seen(), traction, paths, faces,
+        cut_of_points(model, paths), scratch.grid.mass, scratch.rows, scratch.segments,
+        model.groups.of_crack, model.geometry.thickness, place,
     )  # fmt: skip
     scratch.parted = np.flatnonzero((before < 1.0) & (paths.damage >= 1.0))
     scratch.drawn = (traction, paths.above - paths.below)
@@ -174,57 +65,47 @@ def book_pressures(model, state, scratch) -> None:
     if model.cohesion is None:
         return
     paths, (traction, gap) = state.paths, scratch.drawn
-    pressures = [n for n, law in enumerate(model.cohesion.laws) if isinstance(law, Pressure)]
-    pressed = np.isin(paths.law, pressures)
-    density = np.sum(traction * (paths.above - paths.below - gap), axis=1)[pressed]
-    length = covered_lengths(paths)[pressed]
-    state.books.external[0] -= float(density @ length) * model.geometry.thickness
+    pressed = model.cohesion.presses(paths)
+    work = np.sum(traction * (paths.above - paths.below - gap), axis=1)[pressed]
+    length = lay_out_faces(paths).length[pressed]
+    state.books.external[0] -= float(work @ length) * model.geometry.thickness
 
 
 def tractions_now(model, state) -> np.ndarray:
     """Return the stress with which the upper face draws the lower one (points, 2), Pa."""
-    traction = np.zeros_like(state.paths.point)
+    paths, traction = state.paths, np.zeros_like(state.paths.point)
+    normal = lay_out_faces(paths).normal
     for number, law in enumerate(model.cohesion.at(state.time)):
-        pull_points(traction, state.paths, law, number, 0.0, False)
+        pull_points(traction, paths, normal, law, number, 0.0, False)
     return traction
-
-
-def covered_lengths(paths) -> np.ndarray:
-    """Return the length of crack for which every point stands (points,), 0 without a law (m)."""
-    length = np.zeros(len(paths.point))
-    lengths(length, paths)
-    return length
 
 
 def cohesive_energies(model, state) -> tuple[float, float]:
     """Return the energy that the faces of all cracks hold, and what they have dissipated (J)."""
     if model.cohesion is None:
         return 0.0, 0.0
-    paths, thickness = state.paths, model.geometry.thickness
-    held = sum(sum_stored(paths, law, n) for n, law in enumerate(model.cohesion.laws))
-    spent = float(paths.spent.sum(axis=1) @ covered_lengths(paths))
-    return thickness * held, thickness * spent
+    paths, thickness, faces = state.paths, model.geometry.thickness, lay_out_faces(state.paths)
+    held = sum(sum_stored(paths, faces, law, n) for n, law in enumerate(model.cohesion.laws))
+    return thickness * held, thickness * float(paths.spent.sum(axis=1) @ faces.length)
 
 
 def parted_points(model, state, scratch) -> list[dict]:
     """Return a row of growth.csv for each point that lost all of its traction in this step."""
-    paths, length = state.paths, covered_lengths(state.paths)
-    rows = []
-    for k in scratch.parted:
-        crack = int(np.searchsorted(paths.start, k, side="right")) - 1
-        energy = float(paths.spent[k].sum())
-        rows.append(
-            {
-                "step": state.step,
-                "time": state.time,
-                "crack": model.crack_names[crack],
-                "tip": "",
-                "kind": "debond",
-                "x": float(paths.point[k, 0]),
-                "y": float(paths.point[k, 1]),
-                "J": energy,
-                "mode_I": float(paths.spent[k, 0]) / energy,
-                "energy": energy * float(length[k]) * model.geometry.thickness,
-            }
-        )
-    return rows
+    faces = lay_out_faces(state.paths)
+    return [_row(model, state, faces, int(k)) for k in scratch.parted]
+
+
+def _row(model, state, faces, k) -> dict:
+    paths, energy = state.paths, float(state.paths.spent[k].sum())
+    return {
+        "step": state.step,
+        "time": state.time,
+        "crack": model.crack_names[faces.crack[k]],
+        "tip": "",
+        "kind": "debond",
+        "x": float(paths.point[k, 0]),
+        "y": float(paths.point[k, 1]),
+        "J": energy,
+        "mode_I": float(paths.spent[k, 0]) / energy,
+        "energy": energy * float(faces.length[k]) * model.geometry.thickness,
+    }

@@ -28,7 +28,7 @@ class Segments(NamedTuple):
         np.ndarray
     )  # (segments, 4) a hair below the crack at both ends, the same for neighbours (m)
     crack: np.ndarray  # (segments,) crack of each segment, ascending
-    seen: np.ndarray  # (segments,) on which side of each segment a place lies, `look_from`
+    seen: np.ndarray  # (segments,) on which side of each segment a place lies, `note_sides`
     head: np.ndarray  # (nodes,) first entry of the list of a cell (by its lowest node), or -1
     item: np.ndarray  # (entries,) segment of an entry
     next: np.ndarray  # (entries,) next entry of the same cell, or -1; segments ascend
@@ -129,7 +129,7 @@ def reaches(ends, s, box):
 
 
 @inlined_kernel
-def look_from(segments, cell, x, y, tolerance):
+def note_sides(segments, cell, x, y, tolerance):
     """Note on which side of the segments about a cell a place lies, as 1, -1 or 0 for on its line.
 
     Asked once for a particle, it settles most of its lines to nodes (`sees_past_all`).
@@ -143,7 +143,7 @@ def look_from(segments, cell, x, y, tolerance):
 
 @inlined_kernel
 def sees_past_all(segments, cell, x, y, tolerance):
-    """Return whether a place lies on the side noted by `look_from` of all segments about a cell."""
+    """Return whether a place lies on the side noted by `note_sides` of all segments about a cell."""
     ends, entry = segments.ends, segments.head[cell]
     while entry >= 0:
         s = segments.item[entry]

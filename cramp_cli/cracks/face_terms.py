@@ -17,7 +17,6 @@ from math import inf, pi, sqrt
 
 import numpy as np
 
-from cramp_cli.cohesive.pressure import Pressure
 from cramp_cli.cracks.cohesion import tractions_now
 from cramp_cli.cracks.contact import FRICTIONAL
 from cramp_cli.cracks.domain_integral import beside_crack, weight
@@ -69,17 +68,17 @@ def zone_energy(model, state, tip) -> float:
     """
     if model.cohesion is None:
         return 0.0
-    _, step, traction = _pieces(model, state, tip, without=Pressure)
+    _, step, traction = _pieces(model, state, tip, pressures=False)
     widest = int(np.argmax(np.hypot(*np.cumsum(step, axis=0).T))) + 1
     return float(np.sum(traction[:widest] * step[:widest]))
 
 
-def _pieces(model, state, tip, without=()):
+def _pieces(model, state, tip, *, pressures=True):
     """Return the pieces of a crack as they follow each other from its tip.
 
     The tip is closed: the part of a cell ahead of it in which a smooth tip opens counts behind it.
 
-    without: kind of law that is left out
+    pressures: whether they count as tractions
     returns: distances of their ends from the tip (n + 1,), m; step of the gap from end to end
     (n, 2), m; mean traction (n, 2), Pa, none where a law covers not both ends
     """
@@ -87,9 +86,8 @@ def _pieces(model, state, tip, without=()):
     lengths = np.hypot(*np.diff(paths.origin[points], axis=0).T)
     gap = (paths.above - paths.below)[points]
     gap[0] = 0.0
-    laws = model.cohesion.laws
-    left_out = [n for n, law in enumerate(laws) if without and isinstance(law, without)]
-    counts = (paths.law[points] >= 0) & ~np.isin(paths.law[points], left_out)
+    counts = (paths.law >= 0) & (pressures | ~model.cohesion.presses(paths))
+    counts = counts[points]
     stress = tractions_now(model, state)[points]
     mean = 0.5 * (stress[1:] + stress[:-1]) * (counts[1:] & counts[:-1])[:, None]
     return np.concatenate([[0.0], np.cumsum(lengths)]), np.diff(gap, axis=0), mean

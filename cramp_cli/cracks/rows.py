@@ -15,7 +15,7 @@ from cramp_cli.cracks.crossing import (
     crossed_cracks,
     crosses,
     double_area,
-    look_from,
+    note_sides,
     off_crack,
     sees_past_all,
 )
@@ -367,7 +367,7 @@ def assign_rows(
             continue
         listed[line], stencil.near[p], stencil.entries[line] = p, line, 0
         x, y = off_crack(segments, cell, x, y, tolerance)
-        look_from(segments, cell, x, y, tolerance)
+        note_sides(segments, cell, x, y, tolerance)
         known, cut, gx, gy = -1, 1.0, 0.0, 0.0
         for k in range(len(steps)):
             nx = lower[0] + width * (corner[0] + k % side)

@@ -69,7 +69,7 @@ class SofteningModeSection(ModeSection):
     def too_soft(self, fullness: float) -> Iterator[Wrong]:
         """Yield a stiffness with which the law would be parted before it reaches its peak."""
         k, s, G = self.numbers(fullness)
-        least = s * s / (2.0 * G) if G > 0.0 else s / self.opening
+        least = s * s / (2.0 * G)
         if k < (1.0 - 1e-9) * least:
             message = f"must be at least peak^2/(2 toughness) = {least:.5g} Pa/m (got {k:.5g} Pa/m)"
             yield ("stiffness",), message

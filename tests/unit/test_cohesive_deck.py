@@ -6,8 +6,8 @@ from support import build_deck
 
 from cramp_cli.build.cohesion import traction_law
 from cramp_cli.cohesive.law import strength, work
-from cramp_cli.cracks.cohesion import covered_lengths
 from cramp_cli.cracks.extend import add_point, cover_end
+from cramp_cli.cracks.faces import lay_out_faces
 from cramp_cli.deck.deck import DeckError, read_deck
 
 DECK = """\
@@ -126,11 +126,16 @@ def test_places_are_checked(deck, setting, told):
     assert told in str(caught.value)
 
 
-def test_a_crack_on_a_symmetry_plane_has_no_law():
+@pytest.mark.parametrize("grown", [False, True])
+def test_a_crack_on_a_symmetry_plane_has_no_law(grown):
     half = {"bodies": [{"name": "plate", "material": "m"}]}
     half["bodies"][0]["shape"] = {"type": "rectangle", "lower": [0, 5], "upper": [20, 10]}
     half["boundary"] = [{"where": {"y": 5}, "symmetry": True}]
     half["contact"] = {"cracks": {"law": "ignore"}}
+    if grown:
+        crack = {"name": "cut", "points": [[0, 5], [8, 5]], "start": "edge"}
+        law = {"law": "pressure", "value": 1.0}
+        half |= {"cracks": [crack], "propagation": {"criterion": "critical_J", "traction": law}}
     with pytest.raises(DeckError, match="symmetry plane can have none: model both halves"):
         build_deck(DECK, **half)
 
@@ -147,7 +152,7 @@ def test_faces_that_are_glued_can_not_part():
 
 def test_a_law_covers_its_part():
     model, state, _ = build_deck(DECK, cracks=[_cut([2.0, 5.0])])
-    assert covered_lengths(state.paths).sum() == pytest.approx(3.0, rel=1e-12)
+    assert lay_out_faces(state.paths).length.sum() == pytest.approx(3.0, rel=1e-12)
     x = state.paths.origin[state.paths.law == 0, 0]
     assert (x.min(), x.max()) == (2.0, 5.0)
     assert len(model.cohesion.laws) == 1
@@ -164,12 +169,12 @@ def test_a_growing_end_takes_the_law_along():
     growth = {"criterion": "critical_J", "traction": {"law": "pressure", "value": 3.0}}
     model, state, _ = build_deck(DECK, cracks=[_cut([2.0, 5.0])], propagation=growth)
     assert model.cohesion.grown == 1
-    before = covered_lengths(state.paths).sum()
+    before = lay_out_faces(state.paths).length.sum()
     paths = add_point(state.paths, 0, 1)
     cover_end(paths, 0, 1, model.cohesion.grown)
-    assert covered_lengths(paths).sum() == pytest.approx(before, rel=1e-12)
+    assert lay_out_faces(paths).length.sum() == pytest.approx(before, rel=1e-12)
     paths.origin[-1] += (0.3, 0.0)
-    assert covered_lengths(paths).sum() == pytest.approx(before + 0.3, rel=1e-12)
+    assert lay_out_faces(paths).length.sum() == pytest.approx(before + 0.3, rel=1e-12)
     assert paths.law[-2:].tolist() == [1, 1]
     assert paths.damage[-2:].tolist() == [0.0, 0.0]
 

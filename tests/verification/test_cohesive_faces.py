@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from support import advance, build_deck, read
 
-from cramp_cli.cracks.cohesion import cohesive_energies, covered_lengths, tractions_now
+from cramp_cli.cracks.cohesion import cohesive_energies, tractions_now
+from cramp_cli.cracks.faces import lay_out_faces
 from cramp_cli.simulation import Books
 from cramp_cli.state.measures import cauchy_stress
 
@@ -93,7 +94,7 @@ def test_patch_of_two_blocks_with_elastic_faces(traction, component):
     )
     model, state, scratch = build_deck(BLOCK, **deck)
     advance(model, state, scratch, 6000)
-    drawn, length = tractions_now(model, state), covered_lengths(state.paths)
+    drawn, length = tractions_now(model, state), lay_out_faces(state.paths).length
     mean = length @ drawn / length.sum()
     assert mean @ traction == pytest.approx(1e8, rel=5e-3)
     gap = state.paths.above - state.paths.below

@@ -1,0 +1,136 @@
+"""What crack points do under a traction law: they part, draw each other back, and suffer."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from cramp_cli.cohesive.law import respond, stored
+from cramp_cli.cracks.advect import OFF_PLANE, look_around, side_normal
+from cramp_cli.numerics.kernel import kernel
+
+
+class Faces(NamedTuple):
+    """What every crack point stands for."""
+
+    crack: np.ndarray  # (points,)
+    normal: np.ndarray  # (points, 2) unit normal that points above
+    length: np.ndarray  # (points,) of undeformed crack that carries a law, m
+
+
+def lay_out_faces(paths) -> Faces:
+    """Return what the points of all cracks stand for now."""
+    n = len(paths.point)
+    faces = Faces(np.zeros(n, dtype=np.int64), np.zeros((n, 2)), np.zeros(n))
+    fill_faces(faces, paths)
+    return faces
+
+
+@kernel
+def fill_faces(faces, paths):
+    """Fill in what the points of all cracks stand for.
+
+    The length of a point is half of the pieces beside it, of those with a law at both ends.
+    """
+    law, X = paths.law, paths.origin
+    faces.length[:] = 0.0
+    for c in range(len(paths.start) - 1):
+        first, last = paths.start[c], paths.start[c + 1] - 1
+        for k in range(first, last + 1):
+            n = side_normal(paths.point, k, first, last)
+            faces.crack[k], faces.normal[k, 0], faces.normal[k, 1] = c, n[0], n[1]
+            if k < last and law[k] >= 0 and law[k + 1] >= 0:
+                piece = np.hypot(X[k + 1, 0] - X[k, 0], X[k + 1, 1] - X[k, 1])
+                faces.length[k] += 0.5 * piece
+                faces.length[k + 1] += 0.5 * piece
+
+
+@kernel
+def separation(paths, normal, k, ahead):
+    """Return opening and sliding of the faces at point k (m), carried on by a time `ahead` (s).
+
+    normal: of Faces; sliding is positive where the upper face goes ahead
+    """
+    above, below, up, down = paths.above, paths.below, paths.above_velocity, paths.below_velocity
+    gx = above[k, 0] - below[k, 0] + ahead * (up[k, 0] - down[k, 0])
+    gy = above[k, 1] - below[k, 1] + ahead * (up[k, 1] - down[k, 1])
+    return gx * normal[k, 0] + gy * normal[k, 1], gx * normal[k, 1] - gy * normal[k, 0]
+
+
+@kernel
+def pull_points(traction, paths, normal, law, number, ahead, suffers):
+    """Set the stress vector with which the upper face draws the lower one, where a law acts.
+
+    traction: (points, 2), Pa; ahead: as in `separation`; suffers: whether damage is kept
+    """
+    damage, spent = paths.damage, paths.spent
+    for k in range(len(damage)):
+        if paths.law[k] != number:
+            continue
+        opening, sliding = separation(paths, normal, k, ahead)
+        t_n, t_t, grown, opened, slid = respond(law, opening, sliding, damage[k])
+        traction[k, 0] = t_n * normal[k, 0] + t_t * normal[k, 1]
+        traction[k, 1] = t_n * normal[k, 1] - t_t * normal[k, 0]
+        if suffers:
+            damage[k] = grown
+            spent[k, 0] += opened
+            spent[k, 1] += slid
+
+
+@kernel
+def look_from(seen, paths, faces, k, side, cut, mass, rows, segments, of_crack, place):
+    """Find the rows that the surface of point k sees on a side (+1 above, -1 below).
+
+    place: cells, width, lower and strides of the grid
+    returns: number of rows and the sum of their weights
+    """
+    cells, width, lower, strides = place
+    point, normal, off = paths.point, faces.normal, side * OFF_PLANE * width
+    surface = paths.above if side > 0 else paths.below
+    q = (point[k, 0] + off * normal[k, 0], point[k, 1] + off * normal[k, 1])
+    x, even = (surface[k, 0], surface[k, 1]), True
+    return look_around(
+        seen, even, mass, rows, segments, of_crack, faces.crack[k], side, cut[k], q, x,
+        cells, width, lower, strides,
+    )  # fmt: skip
+
+
+@kernel
+def spread(
+    force, up, down, traction, paths, faces, cut, mass, rows, segments, of_crack, thickness, place
+):
+    """Add the tractions to the forces of the rows, equal and opposite on both sides.
+
+    up, down: room for what the two surfaces of a point see; where one of them sees no solid the
+    point gives no force, and its traction is set to zero
+    """
+    for k in range(len(cut)):
+        if traction[k, 0] == 0.0 and traction[k, 1] == 0.0:
+            continue
+        solid = (cut, mass, rows, segments, of_crack, place)
+        over, weight_up = look_from(up, paths, faces, k, 1, *solid)
+        under, weight_down = look_from(down, paths, faces, k, -1, *solid)
+        if weight_up <= 0.0 or weight_down <= 0.0:
+            traction[k, 0] = traction[k, 1] = 0.0
+            continue
+        area = thickness * faces.length[k]
+        give(force, up, over, traction, k, -area / weight_up)
+        give(force, down, under, traction, k, area / weight_down)
+
+
+@kernel
+def give(force, seen, count, traction, k, factor):
+    """Add the traction of point k times a factor to the rows that a surface sees."""
+    for e in range(count):
+        force[seen.row[e], 0] += factor * seen.weight[e] * traction[k, 0]
+        force[seen.row[e], 1] += factor * seen.weight[e] * traction[k, 1]
+
+
+@kernel
+def sum_stored(paths, faces, law, number):
+    """Return the energy per thickness that the faces of a law would give back (J/m)."""
+    total = 0.0
+    for k in range(len(paths.law)):
+        if paths.law[k] == number:
+            opening, sliding = separation(paths, faces.normal, k, 0.0)
+            total += stored(law, opening, sliding, paths.damage[k]) * faces.length[k]
+    return total
