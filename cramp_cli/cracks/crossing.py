@@ -143,7 +143,7 @@ def note_sides(segments, cell, x, y, tolerance):
 
 @inlined_kernel
 def sees_past_all(segments, cell, x, y, tolerance):
-    """Return whether a place lies on the side noted by `note_sides` of all segments about a cell."""
+    """Return whether a place lies on the noted side of all segments about a cell (`note_sides`)."""
     ends, entry = segments.ends, segments.head[cell]
     while entry >= 0:
         s = segments.item[entry]
