@@ -35,6 +35,11 @@ def sum_sides(rows, stencil, paths, particles, of_body, of_crack, shape, strides
     steps = offsets(strides, shape)
     for candidate in range(stencil.count[0]):
         p = stencil.listed[candidate]
+        beside = False
+        for k in range(len(steps)):
+            beside = beside or rows.tip[stencil.base[p] + steps[k]] >= 0
+        if not beside:
+            continue
         tip, known, side, cut = -1, -1, 0, 0.0
         S = weights(vector(strides, stencil.local, p), shape)
         for k in range(len(steps)):
