@@ -11,7 +11,7 @@ from math import pi, sqrt
 from typing import NamedTuple
 
 from cramp_cli.cracks.williams import unit_slope, unit_stress
-from cramp_cli.numerics.kernel import kernel
+from cramp_cli.numerics.kernel import inlined_kernel, kernel
 
 INNER = 0.2  # R0/R1 of a large domain
 NEAR_TIP = 2.0  # cells around a tip that are its own: q is 1 there, so they hardly count
@@ -127,32 +127,54 @@ def beside_crack(particles, frame, width, R0, R1, lo, hi):
     return total, shear, normal
 
 
+@inlined_kernel
+def seen_from_tip(X, frame, p, R0, R1):
+    """Return where particle p started, seen from the tip along the crack, weight and its gradient.
+
+    The weight is 0 outside the domain and at the tip itself, where the asymptotic fields are
+    infinite.
+    """
+    dX, dY = X[p, 0] - frame.origin[0], X[p, 1] - frame.origin[1]
+    r = sqrt(dX * dX + dY * dY)
+    x, y = local_vector(frame.before, dX, dY)
+    if r >= R1 or r < 1e-9 * R1:
+        return x, y, 0.0, 0.0, 0.0
+    q, slope = weight(r, R0, R1)
+    return x, y, q, slope * x / r, slope * y / r
+
+
+@inlined_kernel
+def local_state(particles, frame, p):
+    """Return Kirchhoff stress (xx, yy, xy), first Piola-Kirchhoff stress and F in the tip's axes.
+
+    P = tau F^-T and F are xx, xy, yx, yy: the first index along the axes of now, the second of
+    before.
+    """
+    txx, tyy, txy = local_stress(frame.now, particles.stress, p)
+    f00, f01, f10, f11 = local_gradient(frame, particles.F, p)
+    det = f00 * f11 - f01 * f10
+    pxx, pxy = (txx * f11 - txy * f01) / det, (txy * f00 - txx * f10) / det
+    pyx, pyy = (txy * f11 - tyy * f01) / det, (tyy * f00 - txy * f10) / det
+    return (txx, tyy, txy), (pxx, pxy, pyx, pyy), (f00, f01, f10, f11)
+
+
 @kernel
 def integrate_domain(particles, frame, hooke, gravity, R0, R1, lo, hi):
     """Return J and the integrals for K_I and K_II over particles lo..hi, per thickness times V.
 
     returns: J (J/m^2 times thickness), K_I, K_II (Pa sqrt(m) times thickness), integral of q (m^3)
     """
-    X, F, stress, work = particles.origin, particles.F, particles.stress, particles.work
-    volume, mass, acceleration = particles.volume, particles.mass, particles.acceleration
+    X, work, volume, mass = particles.origin, particles.work, particles.volume, particles.mass
+    acceleration = particles.acceleration
     J, I1, I2, filled = 0.0, 0.0, 0.0, 0.0
     for p in range(lo, hi):
-        dX, dY = X[p, 0] - frame.origin[0], X[p, 1] - frame.origin[1]
-        r = sqrt(dX * dX + dY * dY)
-        if r >= R1 or r < 1e-9 * R1:
+        x, y, q, qx, qy = seen_from_tip(X, frame, p, R0, R1)
+        if q == 0.0:
             continue
-        x, y = local_vector(frame.before, dX, dY)
-        q, slope = weight(r, R0, R1)
-        qx, qy = slope * x / r, slope * y / r
         V = volume[p]
         filled += V * q
-        txx, tyy, txy = local_stress(frame.now, stress, p)
-        f00, f01, f10, f11 = local_gradient(frame, F, p)
-        det = f00 * f11 - f01 * f10
-        # First Piola-Kirchhoff stress P = tau F^-T.
-        pxx, pxy = (txx * f11 - txy * f01) / det, (txy * f00 - txx * f10) / det
-        pyx, pyy = (txy * f11 - tyy * f01) / det, (tyy * f00 - txy * f10) / det
-        hxx, hyx = f00 - 1.0, f10
+        (txx, tyy, txy), (pxx, pxy, pyx, pyy), f = local_state(particles, frame, p)
+        hxx, hyx = f[0] - 1.0, f[2]
         ax, ay = local_vector(
             frame.now, acceleration[p, 0] - gravity[0], acceleration[p, 1] - gravity[1]
         )

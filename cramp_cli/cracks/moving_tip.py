@@ -8,7 +8,7 @@ flies past gives the same J to round-off.
 
 from math import sqrt
 
-from cramp_cli.cracks.domain_integral import local_gradient, local_stress, local_vector, weight
+from cramp_cli.cracks.domain_integral import local_state, local_vector, seen_from_tip, weight
 from cramp_cli.numerics.kernel import kernel
 
 
@@ -34,40 +34,21 @@ def integrate_flux(particles, frame, gravity, drift, R0, R1, lo, hi):
 
     gravity: acceleration of everything (m/s^2); drift: velocity to count from (m/s)
     """
-    X, F, L, stress, work = (
-        particles.origin,
-        particles.F,
-        particles.L,
-        particles.stress,
-        particles.work,
-    )
-    volume, mass, a, v = (
-        particles.volume,
-        particles.mass,
-        particles.acceleration,
-        particles.velocity,
-    )
+    X, L, work, v = particles.origin, particles.L, particles.work, particles.velocity
+    volume, mass, a = particles.volume, particles.mass, particles.acceleration
     J = 0.0
     for p in range(lo, hi):
-        dX, dY = X[p, 0] - frame.origin[0], X[p, 1] - frame.origin[1]
-        r = sqrt(dX * dX + dY * dY)
-        if r >= R1 or r < 1e-9 * R1:
+        _, _, q, qx, qy = seen_from_tip(X, frame, p, R0, R1)
+        if q == 0.0:
             continue
-        x, y = local_vector(frame.before, dX, dY)
-        q, slope = weight(r, R0, R1)
-        qx, qy = slope * x / r, slope * y / r
         V, rho = volume[p], mass[p] / volume[p]
-        txx, tyy, txy = local_stress(frame.now, stress, p)
-        f00, f01, f10, f11 = local_gradient(frame, F, p)
-        det = f00 * f11 - f01 * f10
-        pxx, pxy = (txx * f11 - txy * f01) / det, (txy * f00 - txx * f10) / det
-        pyx, pyy = (txy * f11 - tyy * f01) / det, (tyy * f00 - txy * f10) / det
-        hxx, hyx = f00 - 1.0, f10
+        _, (pxx, pxy, pyx, pyy), f = local_state(particles, frame, p)
+        hxx, hyx = f[0] - 1.0, f[2]
         ax, ay = local_vector(frame.now, a[p, 0] - gravity[0], a[p, 1] - gravity[1])
         vx, vy = local_vector(frame.now, v[p, 0] - drift[0], v[p, 1] - drift[1])
         # v_i,1 in the undeformed body: L F e_1, with F e_1 turned back into the axes of space.
         c, s = frame.now[0], frame.now[1]
-        gx, gy = c * f00 - s * f10, s * f00 + c * f10
+        gx, gy = c * f[0] - s * f[2], s * f[0] + c * f[2]
         lx, ly = L[p, 0] * gx + L[p, 1] * gy, L[p, 2] * gx + L[p, 3] * gy
         vxx, vyx = local_vector(frame.now, lx, ly)
         kinetic = 0.5 * rho * (vx * vx + vy * vy)

@@ -10,9 +10,7 @@ I += sum V { tau_ij (S_tip - S)_ijkl (s_kl q_,1 + s_kl,1 q) },  s the auxiliary 
 the first part because the strain of a particle is S tau and not S_tip tau.
 """
 
-from math import sqrt
-
-from cramp_cli.cracks.domain_integral import local_stress, local_vector, weight
+from cramp_cli.cracks.domain_integral import local_stress, seen_from_tip
 from cramp_cli.cracks.williams import unit_stress, unit_stress_slope
 from cramp_cli.numerics.kernel import kernel
 
@@ -33,16 +31,13 @@ def add_difference(particles, frame, tip, other, R0, R1, lo, hi):
     X, stress, volume = particles.origin, particles.stress, particles.volume
     I1, I2 = 0.0, 0.0
     for p in range(lo, hi):
-        dX, dY = X[p, 0] - frame.origin[0], X[p, 1] - frame.origin[1]
-        r = sqrt(dX * dX + dY * dY)
-        if r >= R1 or r < 1e-9 * R1:
+        x, y, q, qx, _ = seen_from_tip(X, frame, p, R0, R1)
+        if q == 0.0:
             continue
-        x, y = local_vector(frame.before, dX, dY)
-        q, slope = weight(r, R0, R1)
         tau = local_stress(frame.now, stress, p)
         for mode in (1, 2):
             s, ds = unit_stress(mode, x, y), unit_stress_slope(mode, x, y)
-            falling = (compliance(tip, tau, s) - compliance(other, tau, s)) * slope * x / r
+            falling = (compliance(tip, tau, s) - compliance(other, tau, s)) * qx
             within = (compliance(tip, tau, ds) - compliance(other, tau, ds)) * q
             if mode == 1:
                 I1 += volume[p] * (falling + within)
