@@ -27,8 +27,9 @@ from cramp_cli.cracks.domain_integral import (
 from cramp_cli.cracks.doubts import doubts
 from cramp_cli.cracks.face_terms import rubbed_off
 from cramp_cli.cracks.intensity import K_from_J, open_and_slide, opening_near_tip
+from cramp_cli.cracks.ring_integral import integrate_hoop, intensities_of
 from cramp_cli.cracks.room import find_room
-from cramp_cli.materials.geometry import is_plane_stress
+from cramp_cli.materials.geometry import Axisymmetric, depth, is_plane_stress
 from cramp_cli.materials.law import poisson_ratio, same_law, shear_modulus
 from cramp_cli.state.growth import BLEND, HELD, KINK
 from cramp_cli.state.paths import TIP
@@ -183,7 +184,9 @@ def between_particles(model, cloud, frame, end) -> TipFrame:
 
     end: 0 at the first point of the crack, where the frame looks against the crack's direction
     """
-    length, thickness = BESIDE * model.lattice.width, model.geometry.thickness
+    length = BESIDE * model.lattice.width
+    behind = frame.origin[0] - 0.5 * length * frame.before[0]  # the centre of the weight
+    thickness = depth(model.geometry, behind)
     line = (2 * end - 1) * ON_CRACK * model.lattice.width  # particles on a crack lie below it
     sides = [
         material_beside(cloud.particles, frame, length, line, lo, hi) for _, lo, hi in cloud.parts
@@ -213,6 +216,8 @@ def hooke_of(law, geometry) -> Hooke:
 def _measure_contour(model, state, scratch, tip, site, normal, slide):
     if site.half:
         return {}, "contour invalid: the crack lies on a symmetry plane"
+    if isinstance(model.geometry, Axisymmetric):
+        return {}, "contour invalid: it is made for plane bodies"
     place = state.paths.point[tip.points[0]]
     contour = integrate_contour(model, state, scratch, tip.crack, place, site.block, site.gravity)
     if contour.trouble:
@@ -270,15 +275,19 @@ def domain_values(model, site, radius, inner=None):
     inner: radius (m) within which the weight is 1; chosen if not given
     """
     inner = inner_radius(radius, model.lattice.width) if inner is None else inner
-    sums, own = np.zeros(4), 0.0
+    sums, own, rings = np.zeros(4), 0.0, isinstance(model.geometry, Axisymmetric)
     for block, lo, hi in site.cloud.parts:
         part = integrate_domain(
             site.cloud.particles, site.frame, site.hooke, site.gravity, inner, radius, lo, hi
         )
         sums += part
         own += part[3] if same_law(block.law, site.block.law) else 0.0
-    per_length = (2.0 if site.half else 1.0) / model.geometry.thickness
+        if rings:
+            sums[0] += integrate_hoop(site.cloud.particles, site.frame, inner, radius, lo, hi)
+    per_length = (2.0 if site.half else 1.0) / depth(model.geometry, site.frame.origin[0])
     J, K_I, K_II, filled = (per_length * sums).tolist()
+    if rings:
+        K_I, K_II = intensities_of(J, K_I, K_II, site.hooke.stiffness)
     expected = integral_of_weight(inner, radius)
     spoiled = ""
     if abs(filled / expected - 1.0) >= LEAK:
