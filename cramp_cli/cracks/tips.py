@@ -286,6 +286,7 @@ def domain_values(model, site, radius, inner=None):
             sums[0] += integrate_hoop(site.cloud.particles, site.frame, inner, radius, lo, hi)
     per_length = (2.0 if site.half else 1.0) / depth(model.geometry, site.frame.origin[0])
     J, K_I, K_II, filled = (per_length * sums).tolist()
+    K_II = 0.0 if site.half else K_II
     if rings:
         K_I, K_II = intensities_of(J, K_I, K_II, site.hooke.stiffness)
     expected = integral_of_weight(inner, radius)
@@ -294,7 +295,7 @@ def domain_values(model, site, radius, inner=None):
         spoiled = "the edge of the body"
     elif abs(per_length * own / expected - 1.0) >= LEAK:
         spoiled = "another material"
-    return J, K_I, 0.0 if site.half else K_II, spoiled
+    return J, K_I, K_II, spoiled
 
 
 def crack_length(paths, crack: int) -> float:

@@ -97,13 +97,11 @@ def test_thick_walled_cylinder_under_pressure(shape):
     )
     A, B = q * a**2 / (b**2 - a**2), q * a**2 * b**2 / (b**2 - a**2)
     inner = (r > a + 0.1) & (r < b - 0.1)
-    print(shape, (radial - A + B / r**2).round(2), (hoop - A - B / r**2).round(2))
     assert radial[inner] == pytest.approx((A - B / r**2)[inner], abs=0.01 * q)
     assert hoop[inner] == pytest.approx((A + B / r**2)[inner], abs=0.01 * q)
     r = p.origin[:, 0]
     u = (1 + NU) / E * ((1 - 2 * NU) * A * r + B / r)
     moved = p.position[:, 0] - r
-    print(np.abs(moved / u - 1).max())
     assert moved == pytest.approx(u, rel=0.02)
 
 
@@ -121,7 +119,8 @@ def ball_frequency(radius):
 def test_a_ball_that_breathes(shape):
     """A free ball starts with the velocity of its lowest radial mode; zero stress again and again.
 
-    Measured over two periods: the mean radial velocity against cos(omega t), 2 percent at 20 cells.
+    Share of the mode in the velocity against cos(omega t) over two periods, 20 cells: measured 0.8
+    percent off with linear functions and GIMP, 1.4 and 1.9 with splines.
     """
     radius, cells = 1.0, 20
     circle = {"type": "polygon", "points": _half_circle(radius)}
@@ -139,8 +138,7 @@ def test_a_ball_that_breathes(shape):
     for _ in range(8):
         advance(model, state, scratch, steps // 8)
         error.append(np.sum(shape_of * p.velocity) / start - np.cos(omega * state.time))
-    print(shape, error)
-    assert np.abs(error).max() < 0.1, error
+    assert np.abs(error).max() < 0.025, error
     assert sum(sum_energies(p)) == pytest.approx(energy, rel=0.01)
 
 
