@@ -93,6 +93,11 @@ class Conditions:
     tractions: tuple = ()
     gravity: tuple = ()
 
+    @property
+    def boundary_count(self) -> int:
+        """Boundaries that book reactions; the axis of rings comes after those with a name."""
+        return max([len(self.names), *(plane.boundary + 1 for plane in self.mirrors)])
+
     def body_force(self, time: float, dim: int) -> tuple:
         """Return the sum of all gravities (m/s^2)."""
         total = np.zeros(dim)

@@ -1,4 +1,7 @@
-"""Tractions on faces of particles, spread with linear functions from the ends of the face."""
+"""Tractions on faces of particles, spread from the ends of the face.
+
+The functions are linear, or the splines: a node outside the body then carries what it must.
+"""
 
 from typing import NamedTuple
 

@@ -16,16 +16,18 @@ from cramp_cli.boundary.traction import Faces
 from cramp_cli.boundary.velocity import Held
 from cramp_cli.cracks.room import Obstacle
 from cramp_cli.deck.deck import DeckError
+from cramp_cli.materials.geometry import depth
 from cramp_cli.shapes.linear import Linear
-from cramp_cli.shapes.shape import reaches_beyond
+from cramp_cli.shapes.shape import is_ring, reaches_beyond
 
 ON_PLANE = 1e-6  # cells
+TOUCHES_AXIS = 2.0  # cells from the axis within which a particle may see its nodes
 REACH = 1.5  # cells beside a region in which a node may hold particles of it
 
 
-def build_conditions(deck, lattice, particles, blocks, paths) -> tuple[Conditions, tuple]:
+def build_conditions(deck, lattice, geometry, particles, blocks, paths) -> tuple[Conditions, tuple]:
     """Return all conditions, and what spoils a J domain."""
-    builder = _Builder(deck, lattice, particles, blocks, paths)
+    builder = _Builder(deck, lattice, geometry, particles, blocks, paths)
     for number, boundary in enumerate(deck.boundary):
         builder.add_boundary(number, boundary)
     for number, load in enumerate(deck.loads):
@@ -34,6 +36,7 @@ def build_conditions(deck, lattice, particles, blocks, paths) -> tuple[Condition
             "traction": builder.add_traction,
             "gravity": builder.add_gravity,
         }[load.type](number, load)
+    builder.add_axis()
     if builder.mistakes:
         raise DeckError(builder.mistakes)
     conditions = Conditions(
@@ -50,9 +53,9 @@ def build_conditions(deck, lattice, particles, blocks, paths) -> tuple[Condition
 class _Builder:
     """Collects conditions and mistakes."""
 
-    def __init__(self, deck, lattice, particles, blocks, paths):
-        self.deck, self.lattice, self.particles = deck, lattice, particles
-        self.blocks, self.paths = blocks, paths
+    def __init__(self, deck, lattice, geometry, particles, blocks, paths):
+        self.deck, self.lattice, self.geometry = deck, lattice, geometry
+        self.particles, self.blocks, self.paths = particles, blocks, paths
         self.nodes = lattice.node_positions()
         self.tolerance = ON_PLANE * lattice.width
         self.names, self.holds, self.mirrors = [], [], []
@@ -120,18 +123,29 @@ class _Builder:
             return
         other = 1 - axis
         low, high = _span(boundary.where, other, self.tolerance)
-        on = np.flatnonzero(
-            (np.abs(self.nodes[:, axis] - at) <= self.tolerance)
-            & (self.nodes[:, other] >= low)
-            & (self.nodes[:, other] <= high)
-        )
+        plane = np.flatnonzero(np.abs(self.nodes[:, axis] - at) <= self.tolerance)
+        on = plane[(self.nodes[plane, other] >= low) & (self.nodes[plane, other] <= high)]
         step = side * lattice.strides[axis]
         crack = self._crack_on_plane(number, axis, at, side)
         mirror = Mirror(axis, on, self.nodes[on], on - step, on + step, crack)
         self.mirrors.append(MirrorPlane(mirror, number))
         self._spoil(self.nodes[on], "a symmetry plane", crack)
-        plane = np.flatnonzero(np.abs(self.nodes[:, axis] - at) <= self.tolerance)
         self._spoil(self.nodes[np.setdiff1d(plane, on)], "the end of a symmetry plane")
+
+    def add_axis(self):
+        """Make the axis of rings a symmetry plane; a body that stays away from it needs none."""
+        width, first = self.lattice.width, -self.lattice.lower[0]
+        on_axis = self.particles.position[:, 0].min() < TOUCHES_AXIS * width
+        if not is_ring(self.blocks[0].shape) or not on_axis:
+            return
+        if abs(first / width - round(first / width)) > ON_PLANE or first < (1 - ON_PLANE) * width:
+            message = "must have a line at x = 0, the axis, and a row of cells beyond it"
+            self.wrong(("grid", "lower") if self.deck.grid.lower else ("grid",), message)
+            return
+        on = np.flatnonzero(np.abs(self.nodes[:, 0]) <= self.tolerance)
+        mirror = Mirror(0, on, self.nodes[on], on - 1, on + 1, -1)
+        self.mirrors.append(MirrorPlane(mirror, len(self.names)))
+        self._spoil(self.nodes[on], "the axis")
 
     def _body_side(self, axis, at) -> int:
         """Return +1 or -1 for the side of a plane on which all particles lie, 0 if both."""
@@ -182,10 +196,13 @@ class _Builder:
             self.wrong(("loads", number, "where"), f"holds no particle of body {load.body}")
             return
         each = np.array(load.total) / len(chosen) if load.total is not None else np.array(load.each)
+        deep = depth(self.geometry, self.particles.origin[:, 0])
+        rings = is_ring(self.blocks[0].shape) and load.total is not None
+        share = deep / deep[chosen].mean() if rings else np.ones(len(deep))
         for block in self.blocks:
             mine = chosen[(chosen >= block.lo) & (chosen < block.hi)]
             if len(mine):
-                force = np.tile(each, (len(mine), 1))
+                force = share[mine, None] * each
                 self.forces.append(ParticleForce(mine, force, block.shape, load.in_time))
         self._spoil(self.particles.origin[chosen], "a loaded particle")
 
@@ -219,16 +236,19 @@ class _Builder:
         corners = np.zeros((2, 2))
         corners[:, axis] = sign * half[axis]
         corners[:, other] = half[other], -half[other]
-        if isinstance(block.shape, Linear):  # a point sees no node beyond its own cell
-            corners[:] = 0.0
+        # Along a radius a corner's share of the face is that of the ring a third of the way out.
+        out = corners[:, 0] if axis == 0 else corners[:, 0] / 3.0
+        radius = self.particles.origin[chosen, 0][:, None] + width * out
+        if isinstance(getattr(block.shape, "plain", block.shape), Linear):
+            corners[:] = 0.0  # a point sees no node beyond its own cell
         stress = np.array(load.traction) if load.traction is not None else np.zeros(2)
         if load.pressure is not None:
             stress[axis] = -sign * load.pressure
-        share = half[other] * width * self.deck.thickness
+        share = half[other] * width * depth(self.geometry, radius)
         return Faces(
             particle=np.repeat(chosen, 2),
             corner=np.tile(corners, (len(chosen), 1)),
-            force=np.tile(stress * share, (2 * len(chosen), 1)),
+            force=stress * share.reshape(-1, 1),
         )
 
     def add_gravity(self, number, load):

@@ -10,11 +10,13 @@ from cramp_cli.build.laws import law_of
 from cramp_cli.build.surface import settled
 from cramp_cli.cracks.tips import Fracture
 from cramp_cli.deck.deck import Deck, DeckError
-from cramp_cli.materials.geometry import PlaneStrain, PlaneStress
+from cramp_cli.materials.geometry import Axisymmetric, PlaneStrain, PlaneStress, depth
 from cramp_cli.materials.law import confined_modulus, memory
 from cramp_cli.shapes.bspline2 import QuadraticSpline
 from cramp_cli.shapes.bspline3 import CubicSpline
 from cramp_cli.shapes.linear import Linear
+from cramp_cli.shapes.ring import Ring
+from cramp_cli.shapes.shape import is_ring
 from cramp_cli.shapes.ugimp import UniformGimp
 from cramp_cli.state.bands import band_starts, sorted_by_cell
 from cramp_cli.state.growth import make_growth
@@ -24,7 +26,7 @@ from cramp_cli.state.particles import Particles, particles_at
 from cramp_cli.state.paths import EDGE, PLAIN, TIP, Paths, make_paths
 from cramp_cli.transfer.update import Flip, Fmpm, Xpic
 
-GEOMETRIES = {"plane_strain": PlaneStrain, "plane_stress": PlaneStress}
+PLANES = {"plane_strain": PlaneStrain, "plane_stress": PlaneStress}
 SHAPES = {
     "linear": Linear,
     "ugimp": UniformGimp,
@@ -48,11 +50,12 @@ def build(deck: Deck) -> tuple[Model, State]:
     """
     lattice = build_lattice(deck)
     seeds = [seed_body(deck, lattice, number) for number in range(len(deck.bodies))]
-    blocks, particles = _fill(deck, lattice, seeds)
+    geometry, settings = build_geometry(deck), deck.fracture
+    blocks, particles = _fill(deck, lattice, geometry, seeds)
     paths = _paths(deck, lattice)
-    conditions, obstacles = build_conditions(deck, lattice, particles, blocks, paths)
+    solid = (lattice, geometry, particles, blocks, paths)
+    conditions, obstacles = build_conditions(deck, *solid)
     between = build_body_contact(deck)
-    settings, geometry = deck.fracture, GEOMETRIES[deck.analysis](deck.thickness)
     model = Model(
         lattice=lattice,
         geometry=geometry,
@@ -80,7 +83,7 @@ def build(deck: Deck) -> tuple[Model, State]:
         cohesion=build_cohesion(deck, paths),
         propagation=build_propagation(deck, blocks, geometry),
     )
-    reactions = np.zeros((len(conditions.names), len(lattice.cells)))
+    reactions = np.zeros((conditions.boundary_count, len(lattice.cells)))
     bands = [b.lo + band_starts(lattice, particles.position[b.lo : b.hi]) for b in blocks]
     return model, State(
         time=0.0,
@@ -93,6 +96,21 @@ def build(deck: Deck) -> tuple[Model, State]:
         bands=np.array(bands),
         growth=make_growth(paths),
     )
+
+
+def build_geometry(deck: Deck):
+    """Return what the direction across the plane does."""
+    if deck.analysis == "axisymmetric":
+        return Axisymmetric()
+    return PLANES[deck.analysis](deck.thickness)
+
+
+def build_shape(deck: Deck, lattice: Lattice, half):
+    """Return the shape function of particles with half sizes `half` (cells)."""
+    shape = SHAPES[deck.solver.shape](half)
+    if deck.analysis != "axisymmetric":
+        return shape
+    return Ring(shape, half, round(-lattice.lower[0] / lattice.width), lattice.nodes[0])
 
 
 def build_lattice(deck: Deck) -> Lattice:
@@ -160,7 +178,7 @@ def _smooth_tips(blocks) -> TipNodes:
     return TipNodes(FRONT - sum(half) / len(half), RAMP)
 
 
-def _fill(deck: Deck, lattice: Lattice, seeds) -> tuple[tuple[Block, ...], Particles]:
+def _fill(deck: Deck, lattice: Lattice, geometry, seeds) -> tuple[tuple[Block, ...], Particles]:
     """Return blocks of one material and particle size, and their particles sorted by cell."""
     kinds = sorted({(b.material or RIGID, b.particles_per_cell) for b in deck.bodies if not b.hole})
     blocks, parts, start = [], [], 0
@@ -177,13 +195,14 @@ def _fill(deck: Deck, lattice: Lattice, seeds) -> tuple[tuple[Block, ...], Parti
         law, density = None, 0.0  # of a rigid body
         if material != RIGID:
             law, density = law_of(deck.materials[material]), deck.materials[material].density
-        shape = SHAPES[deck.solver.shape]((0.5 / per_cell,) * 2)
+        shape = build_shape(deck, lattice, (0.5 / per_cell,) * 2)
         blocks.append(Block(start, start + len(points), law, shape, material, density))
-        volume = np.full(len(points), (lattice.width / per_cell) ** 2 * deck.thickness)
+        volume = (lattice.width / per_cell) ** 2 * depth(geometry, points[order, 0])
         parts.append((points[order], owner[order], density * volume, volume))
         start += len(points)
     columns = (np.concatenate(column) for column in zip(*parts, strict=True))
-    particles = particles_at(*columns, memory=max(memory(b.law) for b in blocks if b.law))
+    rings, columns_of_laws = is_ring(blocks[0].shape), max(memory(b.law) for b in blocks if b.law)
+    particles = particles_at(*columns, memory=columns_of_laws, rings=rings)
     for number, body in enumerate(deck.bodies):
         _set_moving(particles, number, body)
     return tuple(blocks), particles

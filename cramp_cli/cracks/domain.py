@@ -10,8 +10,9 @@ from cramp_cli.cracks.domain_integral import (
     integral_of_weight,
     integrate_domain,
 )
+from cramp_cli.cracks.ring_integral import integrate_hoop, intensities_of
 from cramp_cli.cracks.second_material import add_difference
-from cramp_cli.materials.geometry import is_plane_stress
+from cramp_cli.materials.geometry import Axisymmetric, depth, is_plane_stress
 from cramp_cli.materials.law import poisson_ratio, same_law, shear_modulus
 
 BARE = 0.5  # a particle of another material nearer to the tip than this leaves no K (cells)
@@ -35,15 +36,18 @@ def domain_values(model, site, radius, inner=None) -> Values:
     """
     inner = inner_radius(radius, model.lattice.width) if inner is None else inner
     sums, own, known = _sum_parts(model, site, inner, radius)
-    per_length = (2.0 if site.half else 1.0) / model.geometry.thickness
+    per_length = (2.0 if site.half else 1.0) / depth(model.geometry, site.frame.origin[0])
     J, K_I, K_II, filled = (per_length * sums).tolist()
     K_II = 0.0 if site.half else K_II
+    rings = isinstance(model.geometry, Axisymmetric)
+    if rings:
+        K_I, K_II = intensities_of(J, K_I, K_II, site.hooke.stiffness)
     expected = integral_of_weight(inner, radius)
     mixed = abs(per_length * own / expected - 1.0) >= LEAK
     spoiled = ""
     if abs(filled / expected - 1.0) >= LEAK:
         spoiled = "the edge of the body"
-    elif mixed and not known:
+    elif mixed and (rings or not known):
         spoiled = "another material"
     if mixed and not spoiled:
         J = (K_I**2 + K_II**2) / site.hooke.stiffness
@@ -60,6 +64,8 @@ def _sum_parts(model, site, inner, radius):
         where = (inner, radius, lo, hi)
         part = integrate_domain(particles, site.frame, site.hooke, site.gravity, *where)
         sums += part
+        if isinstance(model.geometry, Axisymmetric):
+            sums[0] += integrate_hoop(particles, site.frame, *where)
         if same_law(block.law, site.block.law):
             own += part[3]
         elif part[3] > 0.0:

@@ -22,6 +22,7 @@ from cramp_cli.cracks.doubts import doubts
 from cramp_cli.cracks.face_terms import drawn, rubbed_off, zone_energy
 from cramp_cli.cracks.intensity import K_from_J, open_and_slide, opening_near_tip
 from cramp_cli.cracks.room import find_room
+from cramp_cli.materials.geometry import Axisymmetric, depth
 from cramp_cli.state.growth import BLEND, HELD, KINK, MIXED
 from cramp_cli.state.paths import TIP
 
@@ -177,7 +178,9 @@ def between_particles(model, cloud, frame, end) -> TipFrame:
 
     end: 0 at the first point of the crack, where the frame looks against the crack's direction
     """
-    length, thickness = BESIDE * model.lattice.width, model.geometry.thickness
+    length = BESIDE * model.lattice.width
+    behind = frame.origin[0] - 0.5 * length * frame.before[0]  # the centre of the weight
+    thickness = depth(model.geometry, behind)
     line = (2 * end - 1) * ON_CRACK * model.lattice.width  # particles on a crack lie below it
     sides = [
         material_beside(cloud.particles, frame, length, line, lo, hi) for _, lo, hi in cloud.parts
@@ -200,6 +203,8 @@ def block_at(model, cloud, place):
 def _measure_contour(model, state, scratch, tip, site, normal, slide):
     if site.half:
         return {}, "contour invalid: the crack lies on a symmetry plane"
+    if isinstance(model.geometry, Axisymmetric):
+        return {}, "contour invalid: it is made for plane bodies"
     if model.cohesion is not None and np.any(state.paths.law[tip.points] >= 0):
         return {}, "contour invalid: stresses act on the faces"
     place = state.paths.point[tip.points[0]]

@@ -20,6 +20,7 @@ from cramp_cli.deck.materials import AnyMaterial
 from cramp_cli.deck.overrides import apply_overrides
 from cramp_cli.deck.parts import parts_of, salvage
 from cramp_cli.deck.propagation import InterfaceSection, PropagationSection
+from cramp_cli.deck.ring_checks import ring_mistakes
 from cramp_cli.deck.run import FractureSection, OutputSection, SolverSection
 from cramp_cli.deck.solids import Isotropic
 from cramp_cli.deck.write import to_yaml
@@ -46,8 +47,9 @@ class Deck(Section):
 
     cramp: Annotated[Count, AfterValidator(_format)] = Field(description="format of the deck: 1")
     title: str = Field("", max_length=1000, description="one line about it")
-    analysis: Literal["plane_strain", "plane_stress"] = Field(
-        description="state of the direction across the plane"
+    analysis: Literal["plane_strain", "plane_stress", "axisymmetric"] = Field(
+        description="state of the direction across the plane; axisymmetric: x is the radius, y the "
+        "axis, and forces and energies are those of whole rings"
     )
     thickness: Length = Field(1.0, gt=0, description="thickness across the plane")
     grid: GridSection = Field(description="background grid")
@@ -135,7 +137,8 @@ def check_deck(source: Source, folder: Path) -> Deck:
         found += [source.mistake(*error) for error in explain(failure, data)]
         parts = salvage(data, folder)
     wrong = [*name_mistakes(data), *geometry_mistakes(parts)]
-    wrong += (*growth_mistakes(deck), *contact_mistakes(deck)) if deck is not None else ()
+    if deck is not None:
+        wrong += (*growth_mistakes(deck), *contact_mistakes(deck), *ring_mistakes(deck))
     found += [source.mistake(*one) for one in wrong]
     if found or deck is None:
         raise DeckError(found)

@@ -1,6 +1,6 @@
-"""Plane strain and plane stress: the strain normal to the plane that a plane leaves open."""
+"""Plane strain, plane stress, rings: the strain normal to the plane that a plane leaves open."""
 
-from math import nan
+from math import nan, pi
 from typing import NamedTuple
 
 from cramp_cli.materials.law import Strained, confined_modulus, kirchhoff_stress
@@ -26,12 +26,34 @@ class PlaneStress(NamedTuple):
     thickness: float  # m
 
 
+class Axisymmetric(NamedTuple):
+    """A body of revolution: x is the radius, y the axis; every particle is a whole ring.
+
+    The strain normal to the plane is v_r/r, found with the velocity gradient.
+    """
+
+    circumference: float = 2.0 * pi  # of the ring of radius 1
+
+
 @generic
 def strained(geometry, law, step, history, p):
     """Return the strain of a step, the stress after it (six each), and what the history becomes.
 
     step: of Straining
     """
+
+
+@generic
+def rate_across(geometry, L, p):
+    """Return the strain rate normal to the plane that motion gives a particle (1/s).
+
+    L: (n, 4), (n, 9), or in rings (n, 5): velocity gradients
+    """
+
+
+@generic
+def depth(geometry, x):
+    """Return how deep the body is behind the plane at x (m): numbers or arrays."""
 
 
 @generic
@@ -42,6 +64,13 @@ def is_plane_stress(geometry):
 @strained.implement(PlaneStrain)
 def _(geometry, law, step, history, p):
     whole = _completed(step, 0.0)
+    stress, past = kirchhoff_stress(law, whole, history, p)
+    return whole.strain, stress, past
+
+
+@strained.implement(Axisymmetric)
+def _(geometry, law, step, history, p):
+    whole = _completed(step, step.across)
     stress, past = kirchhoff_stress(law, whole, history, p)
     return whole.strain, stress, past
 
@@ -79,6 +108,41 @@ def _(geometry):
     return False
 
 
+@is_plane_stress.implement(Axisymmetric)
+def _(geometry):
+    return False
+
+
 @is_plane_stress.implement(PlaneStress)
 def _(geometry):
     return True
+
+
+@rate_across.implement(PlaneStrain)
+def _(geometry, L, p):
+    return 0.0
+
+
+@rate_across.implement(PlaneStress)
+def _(geometry, L, p):
+    return 0.0
+
+
+@rate_across.implement(Axisymmetric)
+def _(geometry, L, p):
+    return L[p, 4]
+
+
+@depth.implement(PlaneStrain)
+def _(geometry, x):
+    return geometry.thickness + 0.0 * x
+
+
+@depth.implement(PlaneStress)
+def _(geometry, x):
+    return geometry.thickness + 0.0 * x
+
+
+@depth.implement(Axisymmetric)
+def _(geometry, x):
+    return geometry.circumference * x

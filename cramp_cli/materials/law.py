@@ -22,6 +22,7 @@ class Straining(NamedTuple):
     F: tuple  # deformation gradient after the step, in the plane or the solid (4 or 9)
     stretch: float  # normal to a plane problem, before the step
     dt: float  # s
+    across: float = 0.0  # strain of the step normal to the plane that the motion gives, in a ring
 
 
 class Strained(NamedTuple):

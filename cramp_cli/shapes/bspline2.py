@@ -6,7 +6,15 @@ Slopes are continuous, so a particle that passes from cell to cell feels no jump
 from math import floor
 from typing import NamedTuple
 
-from cramp_cli.shapes.shape import along_axis, first_node, node_steps, reaches_beyond, support
+from cramp_cli.numerics.kernel import inlined_kernel
+from cramp_cli.shapes.shape import (
+    along_axis,
+    first_node,
+    node_steps,
+    plane,
+    reaches_beyond,
+    support,
+)
 
 
 class QuadraticSpline(NamedTuple):
@@ -41,3 +49,20 @@ def _(shape, axis, r):
     left, right = 1.5 - r, r - 0.5
     first, last = 0.5 * left * left, 0.5 * right * right
     return (first, 1.0 - first - last, last), (-left, left - right, right)
+
+
+@inlined_kernel
+def spline(a):
+    """Return the spline at a distance a (cells) from its node."""
+    return 0.5 * max(0.0, 1.5 - a) ** 2 - 1.5 * max(0.0, 0.5 - a) ** 2
+
+
+def _of_a_point(shape, r):
+    # Of a point at the edge of a particle that has moved, a node may lie outside those of the
+    # particle, with a weight of a few percent: the others take its share.
+    a, b, c = spline(abs(r)), spline(abs(r - 1.0)), spline(abs(r - 2.0))
+    whole = a + b + c
+    return a / whole, b / whole, c / whole
+
+
+plane(QuadraticSpline, of_a_point=_of_a_point)

@@ -3,7 +3,15 @@
 from math import floor
 from typing import NamedTuple
 
-from cramp_cli.shapes.shape import along_axis, first_node, node_steps, reaches_beyond, support
+from cramp_cli.numerics.kernel import inlined_kernel
+from cramp_cli.shapes.shape import (
+    along_axis,
+    first_node,
+    node_steps,
+    plane,
+    reaches_beyond,
+    support,
+)
 
 
 class CubicSpline(NamedTuple):
@@ -42,3 +50,21 @@ def _(shape, axis, r):
     d_second = right * (1.5 * right - 2.0)
     values = (first, second, 1.0 - first - second - last, last)
     return values, (d_first, d_second, -d_first - d_second - d_last, d_last)
+
+
+@inlined_kernel
+def spline(a):
+    """Return the spline at a distance a (cells) from its node."""
+    return (max(0.0, 2.0 - a) ** 3 - 4.0 * max(0.0, 1.0 - a) ** 3) / 6.0
+
+
+def _of_a_point(shape, r):
+    # Of a point at the edge of a particle that has moved, a node may lie outside those of the
+    # particle, with a weight of a few percent: the others take its share.
+    a, b = spline(abs(r)), spline(abs(r - 1.0))
+    c, d = spline(abs(r - 2.0)), spline(abs(r - 3.0))
+    whole = a + b + c + d
+    return a / whole, b / whole, c / whole, d / whole
+
+
+plane(CubicSpline, of_a_point=_of_a_point)

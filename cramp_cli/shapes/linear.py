@@ -3,13 +3,23 @@
 from math import floor
 from typing import NamedTuple
 
-from cramp_cli.shapes.shape import along_axis, first_node, node_steps, reaches_beyond, support
+from cramp_cli.shapes.shape import (
+    along_axis,
+    first_node,
+    node_steps,
+    plane,
+    reaches_beyond,
+    support,
+)
 
 
 class Linear(NamedTuple):
     """A particle is a point."""
 
     half: tuple  # half size of the particle along each axis, in cells; not used by the values
+
+
+plane(Linear)
 
 
 @support.implement(Linear)

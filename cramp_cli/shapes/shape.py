@@ -6,7 +6,7 @@ the slope (algorithm: Bardenhagen and Kober 2004).
 """
 
 from cramp_cli.numerics.dispatch import by_length, generic
-from cramp_cli.numerics.tensor import outer, outer_sum
+from cramp_cli.numerics.tensor import outer, outer_sum, times
 
 
 @generic
@@ -37,6 +37,45 @@ def reaches_beyond(shape):
     """Return whether a particle whose box ends on a line of nodes sees nodes beyond that line.
 
     Where velocities are held on the line, those nodes have to follow (boundary/beyond.py).
+    """
+
+
+@generic
+def is_ring(shape):
+    """Return whether particles are rings about an axis (ring.py)."""
+
+
+@generic
+def seen_from(shape, base, local):
+    """Return the shape for the slopes of one particle: that of a ring knows its radius.
+
+    base: lowest node of the particle's nodes; local: its place from there, in cells
+    """
+
+
+@generic
+def ring_slopes(shape, slopes, radius):
+    """Return slopes along the radius (cells), weighed by it: those of a point do not change."""
+
+
+@generic
+def hoop_pull(shape, like, hoop):
+    """Return the force of a hoop stress towards the axis, to be weighed by S; none in the plane.
+
+    like: a vector; hoop: stress times volume over the cell width, with the sign of the force
+    """
+
+
+@generic
+def store_hoop(shape, v, per_cell, L, p):
+    """Write the rate of hoop strain v_r/r of a ring behind its velocity gradient; v = sum S v_i."""
+
+
+@generic
+def at_point(shape, r):
+    """Return the functions of a point at the nodes of an axis of the particle that holds it.
+
+    r: place of the point from the first of these nodes, in cells
     """
 
 
@@ -116,18 +155,18 @@ def _(like, r):
 
 @by_length
 def point_weights(local, shape):
-    """Return the linear functions of a point at the nodes of the particle that holds it."""
+    """Return the functions of a point at the nodes of the particle that holds it."""
 
 
 @point_weights.implement(2)
 def _(local, shape):
-    return outer(hats(node_steps(shape, 1), local[1]), hats(node_steps(shape, 1), local[0]))
+    return outer(at_point(shape, local[1]), at_point(shape, local[0]))
 
 
 @point_weights.implement(3)
 def _(local, shape):
-    x, y = hats(node_steps(shape, 1), local[0]), hats(node_steps(shape, 1), local[1])
-    return outer(hats(node_steps(shape, 1), local[2]), outer(y, x))
+    x, y = at_point(shape, local[0]), at_point(shape, local[1])
+    return outer(at_point(shape, local[2]), outer(y, x))
 
 
 @by_length
@@ -144,3 +183,21 @@ def _(strides, shape):
 def _(strides, shape):
     plane = outer_sum(node_steps(shape, strides[1]), node_steps(shape, strides[0]))
     return outer_sum(node_steps(shape, strides[2]), plane)
+
+
+def _linear(shape, r):
+    return hats(node_steps(shape, 1), r)
+
+
+def _unchanged(shape, slopes, radius):
+    return slopes
+
+
+def plane(kind, slopes_in_a_ring=_unchanged, of_a_point=_linear) -> None:
+    """Declare a shape of the plane: what it answers, alone and as part of a ring."""
+    is_ring.implement(kind)(lambda shape: False)
+    seen_from.implement(kind)(lambda shape, base, local: shape)
+    ring_slopes.implement(kind)(slopes_in_a_ring)
+    hoop_pull.implement(kind)(lambda shape, like, hoop: times(like, 0.0))
+    store_hoop.implement(kind)(lambda shape, v, per_cell, L, p: None)
+    at_point.implement(kind)(of_a_point)

@@ -6,7 +6,14 @@ Bardenhagen and Kober (2004), The generalized interpolation material point metho
 from math import floor
 from typing import NamedTuple
 
-from cramp_cli.shapes.shape import along_axis, first_node, node_steps, reaches_beyond, support
+from cramp_cli.shapes.shape import (
+    along_axis,
+    first_node,
+    node_steps,
+    plane,
+    reaches_beyond,
+    support,
+)
 
 
 class UniformGimp(NamedTuple):
@@ -48,3 +55,14 @@ def _(shape, axis, r):
     d_first, d_last = within * (0.5 / l), beyond * (0.5 / l)
     first, last = 0.5 * within * d_first + (left - within), 0.5 * beyond * d_last
     return (first, 1.0 - first - last, last), (-d_first, d_first - d_last, d_last)
+
+
+def _in_a_ring(shape, slopes, radius):
+    # The mean of N' with the weight r over a box of half size l around the radius R: where a share
+    # a of the box lies in the cell of a node, its slope +-a becomes +-a (1 -+ (1 - a) l/R).
+    a, b, weight = -slopes[0], slopes[2], shape.half[0] / radius
+    first, last = a * (1.0 - a) * weight, b * (1.0 - b) * weight
+    return (first - a, a - b - first - last, b + last)
+
+
+plane(UniformGimp, slopes_in_a_ring=_in_a_ring)

@@ -25,7 +25,7 @@ class Particles(NamedTuple):
     F: np.ndarray  # (n, dim*dim) deformation gradient in the plane or the solid, row by row
     stretch: np.ndarray  # (n,) normal to a plane problem: F_zz
     stress: np.ndarray  # (n, 4 or 6) Kirchhoff stress xx, yy, zz, xy[, yz, xz], Pa
-    L: np.ndarray  # (n, dim*dim) velocity gradient of the last step, 1/s
+    L: np.ndarray  # (n, dim*dim) velocity gradient of the last step, 1/s; then v_r/r of rings
     work: np.ndarray  # (n,) work of the stress per initial volume, J/m^3
     history: np.ndarray  # (n, k) what the laws remember; k of the law that needs most, 0 for none
     mass: np.ndarray  # (n,) kg
@@ -34,11 +34,11 @@ class Particles(NamedTuple):
     id: np.ndarray  # (n,) number of the particle, kept when particles are sorted
 
 
-def particles_at(position, body, mass, volume, memory: int = 0) -> Particles:
+def particles_at(position, body, mass, volume, memory: int = 0, *, rings=False) -> Particles:
     """Return unstressed particles at rest.
 
     position: (n, dim) m; body: (n,); mass: (n,) kg; volume: (n,) m^3
-    memory: columns of the history
+    memory: columns of the history; rings: about an axis, with a rate of hoop strain
     """
     n, dim = position.shape
     return Particles(
@@ -49,7 +49,7 @@ def particles_at(position, body, mass, volume, memory: int = 0) -> Particles:
         F=np.tile(np.eye(dim).ravel(), (n, 1)),
         stretch=np.ones(n),
         stress=np.zeros((n, 4 if dim == 2 else 6)),
-        L=np.zeros((n, dim * dim)),
+        L=np.zeros((n, dim * dim + rings)),
         work=np.zeros(n),
         history=np.zeros((n, memory)),
         mass=np.ascontiguousarray(mass, dtype=float),

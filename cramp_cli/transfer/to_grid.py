@@ -11,7 +11,15 @@ from numpy import uint64
 
 from cramp_cli.numerics.kernel import kernel, particle_kernel
 from cramp_cli.numerics.tensor import apply, columns, plus, scaled, symmetric, times, vector
-from cramp_cli.shapes.shape import factors, gradients, offsets, weights
+from cramp_cli.shapes.shape import (
+    factors,
+    gradients,
+    hoop_pull,
+    is_ring,
+    offsets,
+    seen_from,
+    weights,
+)
 from cramp_cli.transfer.nodes import give, give_gradient, take
 from cramp_cli.transfer.rows import add, entry_gradient, first_line
 
@@ -69,7 +77,10 @@ def _mass_and_momentum_near(grid, particles, stencil, shape, strides, run):
 
 @particle_kernel
 def sum_internal_force(grid, particles, stencil, shape, strides, width, parts):
-    """Add f_i = -sum V_p tau_p grad S, with Kirchhoff stress tau and initial volume V."""
+    """Add f_i = -sum V_p tau_p grad S, with Kirchhoff stress tau and initial volume V.
+
+    Rings pull towards the axis as well: -sum V_p tau_hoop S/r.
+    """
     for part in range(len(parts)):
         run = (parts[part, 0], parts[part, 1])
         _internal_force_far(grid, particles, stencil, shape, strides, width, run)
@@ -86,7 +97,9 @@ def _internal_force_far(grid, particles, stencil, shape, strides, width, run):
         if near[p] < 0:
             T = columns(scaled(symmetric(strides, stress, p), volume[p] * per_cell))
             place = vector(strides, local, p)
-            give_gradient(factors(place, shape), strides, base[p], force, times(place, 0.0), T)
+            seen = seen_from(shape, base[p], place)
+            pull = hoop_pull(seen, place, stress[p, 2] * volume[p] * per_cell)
+            give_gradient(factors(place, seen), strides, base[p], force, pull, T)
 
 
 @particle_kernel
@@ -97,10 +110,15 @@ def _internal_force_near(grid, particles, stencil, shape, strides, width, run):
         p = stencil.listed[line]
         T = scaled(symmetric(strides, stress, p), volume[p] * per_cell)
         place = vector(strides, stencil.local, p)
-        S, G = weights(place, shape), gradients(place, shape)
+        seen = seen_from(shape, stencil.base[p], place)
+        pull = hoop_pull(seen, place, stress[p, 2] * volume[p] * per_cell)
+        S, G = weights(place, seen), gradients(place, seen)
         for e in range(stencil.entries[line]):
             g = entry_gradient(stencil, strides, line, e, S, G)
             add(force, table[line, e], 1.0, apply(g, T))
+            if is_ring(shape):
+                w = stencil.share[line, e] * S[stencil.which[line, e]]
+                add(force, table[line, e], w, pull)
 
 
 @kernel

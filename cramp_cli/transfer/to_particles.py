@@ -7,7 +7,7 @@ parts: (k, 3) runs of particles, first and last + 1, and the band they belong to
 
 from numpy import uint64
 
-from cramp_cli.materials.geometry import strained
+from cramp_cli.materials.geometry import rate_across, strained
 from cramp_cli.materials.law import Straining
 from cramp_cli.numerics.kernel import kernel, particle_kernel
 from cramp_cli.numerics.tensor import (
@@ -31,7 +31,15 @@ from cramp_cli.numerics.tensor import (
     work_of,
     zero_matrix,
 )
-from cramp_cli.shapes.shape import factors, first_nodes, gradients, support, weights
+from cramp_cli.shapes.shape import (
+    factors,
+    first_nodes,
+    gradients,
+    seen_from,
+    store_hoop,
+    support,
+    weights,
+)
 from cramp_cli.state.bands import HEIGHT, STRAY
 from cramp_cli.state.stencil import AROUND, CLOSE, FAR
 from cramp_cli.transfer.nodes import give, take, take_both
@@ -161,22 +169,29 @@ def _gradients_far(L, velocity, stencil, shape, strides, per_cell, run):
     for number in range(run[0], run[1]):
         p = uint64(number)
         if near[p] < 0:
-            along = factors(vector(strides, local, p), shape)
-            _, slopes = take_both(along, strides, base[p], velocity)
+            place = vector(strides, local, p)
+            seen = seen_from(shape, base[p], place)
+            v, slopes = take_both(factors(place, seen), strides, base[p], velocity)
             store(scaled(from_columns(slopes), per_cell), L, p, 0)
+            store_hoop(seen, v, per_cell, L, p)
 
 
 @particle_kernel
 def _gradients_near(L, velocity, stencil, shape, strides, per_cell, run):
-    table = stencil.table
+    table, which, share = stencil.table, stencil.which, stencil.share
     for line in range(first_line(stencil, run[0]), first_line(stencil, run[1])):
         p = stencil.listed[line]
         place = vector(strides, stencil.local, p)
-        S, G, gradient = weights(place, shape), gradients(place, shape), zero_matrix(place)
+        seen = seen_from(shape, stencil.base[p], place)
+        S, G, gradient = weights(place, seen), gradients(place, seen), zero_matrix(place)
+        v = times(place, 0.0)
         for e in range(stencil.entries[line]):
             g = entry_gradient(stencil, strides, line, e, S, G)
-            gradient = add_outer(vector(strides, velocity, table[line, e]), g, gradient)
+            v_row = vector(strides, velocity, table[line, e])
+            gradient = add_outer(v_row, g, gradient)
+            v = plus(v, share[line, e] * S[which[line, e]], v_row)
         store(scaled(gradient, per_cell), L, p, 0)
+        store_hoop(seen, v, per_cell, L, p)
 
 
 @particle_kernel
@@ -192,7 +207,8 @@ def strain_one(particles, p, law, geometry, strides, dt):
     dU = scaled(matrix(zero_matrix(strides), particles.L, p), dt)
     turned = turn(dU, six(dU, stress, p, 0))
     after = product(increment(dU), matrix(dU, F, p))
-    step = Straining(turned, dU, after, stretch[p], dt)
+    across = dt * rate_across(geometry, particles.L, p)
+    step = Straining(turned, dU, after, stretch[p], dt, across)
     strain, new, past = strained(geometry, law, step, particles.history, p)
     particles.work[p] += work_of(turned, new, strain)
     stretch[p] *= 1.0 + strain[2] + 0.5 * strain[2] * strain[2]

@@ -12,6 +12,7 @@ from cramp_cli.numerics.tensor import vector
 from cramp_cli.shapes.linear import Linear
 from cramp_cli.shapes.shape import (
     along_axis,
+    at_point,
     first_node,
     gradients,
     node_steps,
@@ -176,7 +177,9 @@ def test_linear_is_the_hat_of_the_nearest_nodes(x):
         assert value == pytest.approx(max(0.0, 1.0 - abs(x - node)), abs=ROUND_OFF)
 
 
-@ALL_SHAPES
+@pytest.mark.parametrize(
+    "shape", [SHAPES[name]((half,) * 3) for name in ("linear", "ugimp") for half in HALVES], ids=str
+)
 @DIMENSIONS
 @settings(max_examples=25)
 @given(cells=st.tuples(place, place, place), share=st.tuples(*[st.floats(-1.0, 1.0)] * 3))
@@ -191,6 +194,19 @@ def test_a_point_of_a_particle_has_linear_weights_at_its_nodes(shape, dim, cells
     hats = np.prod(np.maximum(0.0, 1.0 - np.abs(point - x_i) / lattice.width), axis=1)
     np.testing.assert_allclose(S, hats, atol=20 * ROUND_OFF)
     np.testing.assert_allclose(S @ x_i, point, atol=50 * ROUND_OFF)
+
+
+@pytest.mark.parametrize("name", ["bspline2", "bspline3"])
+@settings(max_examples=50)
+@given(cell=st.integers(1, 4), part=st.integers(0, 1), end=st.sampled_from([-1.0, 1.0]))
+def test_ends_of_a_particle_have_their_splines_at_its_nodes(name, cell, part, end):
+    """Two particles along a cell at their first places: all nodes of their ends are their own."""
+    shape, x = SHAPES[name]((0.25,)), cell + 0.25 + 0.5 * part
+    first, point = first_node(shape, 0, x), x + 0.25 * end
+    values, seen = at_point(shape, point - first), on_axis(shape, point)
+    assert sum(values) == pytest.approx(1.0, abs=4 * ROUND_OFF)
+    for step, value in enumerate(values):
+        assert value == pytest.approx(seen.get(first + step, (0.0, 0.0))[0], abs=4 * ROUND_OFF)
 
 
 @ALL_SHAPES
