@@ -8,7 +8,12 @@ from typing import NamedTuple
 import numpy as np
 
 from cramp_cli.numerics.kernel import kernel
-from cramp_cli.numerics.tensor import dot, plus, times, vector
+from cramp_cli.numerics.vector import (
+    dot,
+    plus,
+    times,
+    vector,
+)
 from cramp_cli.shapes.shape import offsets, point_weights
 from cramp_cli.state.particles import DELETED
 from cramp_cli.transfer.rows import add

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from cramp_cli.numerics.kernel import inlined_kernel, kernel
-from cramp_cli.numerics.tensor import vector
+from cramp_cli.numerics.vector import vector
 from cramp_cli.shapes.shape import gradients, offsets, weights
 from cramp_cli.transfer.rows import add, entry_gradient, first_line
 

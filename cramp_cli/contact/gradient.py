@@ -6,7 +6,12 @@ to b.
 """
 
 from cramp_cli.numerics.kernel import kernel
-from cramp_cli.numerics.tensor import dot, plus, times, vector
+from cramp_cli.numerics.vector import (
+    dot,
+    plus,
+    times,
+    vector,
+)
 
 
 @kernel

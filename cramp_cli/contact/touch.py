@@ -18,7 +18,12 @@ from cramp_cli.cracks.contact import (
     work_of_friction,
 )
 from cramp_cli.numerics.kernel import kernel
-from cramp_cli.numerics.tensor import dot, plus, times, vector
+from cramp_cli.numerics.vector import (
+    dot,
+    plus,
+    times,
+    vector,
+)
 
 SWEEPS = 10  # over the pairs of a node that has several
 

@@ -7,7 +7,12 @@ import numpy as np
 from cramp_cli.cracks.rows import row_across
 from cramp_cli.numerics.dispatch import by_length
 from cramp_cli.numerics.kernel import kernel
-from cramp_cli.numerics.tensor import dot, plus, times, vector
+from cramp_cli.numerics.vector import (
+    dot,
+    plus,
+    times,
+    vector,
+)
 from cramp_cli.shapes.shape import offsets, weights
 
 IGNORE, FRICTIONAL, STICK, GLUED = 0, 1, 2, 3

@@ -13,7 +13,13 @@ from cramp_cli.cracks.crossing import ON_CRACK, crosses
 from cramp_cli.cracks.rows import crossed_row
 from cramp_cli.materials.law import same_law
 from cramp_cli.numerics.kernel import kernel
-from cramp_cli.numerics.tensor import matrix, product, rotation_of, vector, zero_matrix
+from cramp_cli.numerics.tensor import (
+    matrix,
+    product,
+    rotation_of,
+    zero_matrix,
+)
+from cramp_cli.numerics.vector import vector
 from cramp_cli.shapes.shape import offsets, weights
 from cramp_cli.state.bands import band_axis, runs_between
 

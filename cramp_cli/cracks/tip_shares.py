@@ -14,7 +14,7 @@ for what is whole has such motions: the tip would creep under a constant load.)
 from cramp_cli.cracks.crossing import ON_CRACK, double_area
 from cramp_cli.cracks.tip_nodes import FAR, along_crack, cut_share
 from cramp_cli.numerics.kernel import inlined_kernel, kernel
-from cramp_cli.numerics.tensor import vector
+from cramp_cli.numerics.vector import vector
 from cramp_cli.shapes.shape import offsets, weights
 
 

@@ -15,13 +15,12 @@ from cramp_cli.materials.law import (
     shear_modulus,
 )
 from cramp_cli.numerics.tensor import (
-    added,
     determinant,
     deviator,
     left_cauchy_green,
-    scaled,
     squared,
 )
+from cramp_cli.numerics.vector import added, scaled
 
 
 class MooneyRivlin(NamedTuple):

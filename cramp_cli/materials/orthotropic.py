@@ -15,7 +15,13 @@ from cramp_cli.materials.law import (
     poisson_ratio,
     shear_modulus,
 )
-from cramp_cli.numerics.tensor import added, congruent, product, rotation_of, transposed
+from cramp_cli.numerics.tensor import (
+    congruent,
+    product,
+    rotation_of,
+    transposed,
+)
+from cramp_cli.numerics.vector import added
 
 
 class Orthotropic(NamedTuple):

@@ -17,7 +17,13 @@ from cramp_cli.materials.law import (
     shear_modulus,
 )
 from cramp_cli.numerics.dispatch import by_length
-from cramp_cli.numerics.tensor import added, deviator, scaled, six, turn, work_of
+from cramp_cli.numerics.tensor import (
+    deviator,
+    six,
+    turn,
+    work_of,
+)
+from cramp_cli.numerics.vector import added, scaled
 from cramp_cli.state.particles import DISSIPATED, OWN
 
 NOTHING = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)

@@ -6,7 +6,7 @@ the slope (algorithm: Bardenhagen and Kober 2004).
 """
 
 from cramp_cli.numerics.dispatch import by_length, generic
-from cramp_cli.numerics.tensor import outer, outer_sum, times
+from cramp_cli.numerics.vector import outer, outer_sum, times
 
 
 @generic

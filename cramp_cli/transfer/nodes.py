@@ -13,7 +13,7 @@ end of an array, which would be asked at every access.
 from numpy import uint64
 
 from cramp_cli.numerics.dispatch import by_length
-from cramp_cli.numerics.tensor import plus, times, vector
+from cramp_cli.numerics.vector import plus, times, vector
 
 
 @by_length

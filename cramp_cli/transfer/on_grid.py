@@ -1,7 +1,12 @@
 """The equation of motion in every row; strides tell the dimension."""
 
 from cramp_cli.numerics.kernel import kernel
-from cramp_cli.numerics.tensor import plus, store, times, vector
+from cramp_cli.numerics.vector import (
+    plus,
+    store,
+    times,
+    vector,
+)
 
 
 @kernel

@@ -1,7 +1,12 @@
 """What a particle near a crack gives to its rows: the list of its entries (state/stencil.py)."""
 
 from cramp_cli.numerics.kernel import kernel
-from cramp_cli.numerics.tensor import pick, plus, times, vector_of
+from cramp_cli.numerics.vector import (
+    pick,
+    plus,
+    times,
+    vector_of,
+)
 
 
 @kernel

@@ -12,24 +12,26 @@ from cramp_cli.materials.law import Straining
 from cramp_cli.numerics.kernel import kernel, particle_kernel
 from cramp_cli.numerics.tensor import (
     add_outer,
-    dot,
     from_columns,
-    in_cells,
     increment,
     kept,
     matrix,
-    plus,
     product,
-    scaled,
     six,
+    turn,
+    work_of,
+    zero_matrix,
+)
+from cramp_cli.numerics.vector import (
+    dot,
+    in_cells,
+    plus,
+    scaled,
     store,
     times,
-    turn,
     vector,
     whole,
     within,
-    work_of,
-    zero_matrix,
 )
 from cramp_cli.shapes.shape import (
     factors,

@@ -7,7 +7,7 @@ velocity consistent to second order: under a constant acceleration a particle fa
 from typing import NamedTuple
 
 from cramp_cli.numerics.dispatch import generic
-from cramp_cli.numerics.tensor import plus, times
+from cramp_cli.numerics.vector import plus, times
 
 
 class Flip(NamedTuple):

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cramp_cli.build.model import SHAPES
-from cramp_cli.numerics.tensor import vector
+from cramp_cli.numerics.vector import vector
 from cramp_cli.shapes.linear import Linear
 from cramp_cli.shapes.shape import (
     along_axis,

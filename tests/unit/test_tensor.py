@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from scipy.linalg import expm, polar
 
 from cramp_cli.numerics import tensor as t
+from cramp_cli.numerics import vector as vec
 from cramp_cli.numerics.kernel import kernel
 
 DIMENSIONS = pytest.mark.parametrize("dim", [2, 3])
@@ -55,10 +56,10 @@ def close(got, wanted):
 def test_vectors(dim):
     a, b = numbers(2, dim)
     A = numbers(dim, dim, seed=2)
-    close(t.plus(flat(a), 0.3, flat(b)), a + 0.3 * b)
-    close(t.times(flat(a), -2.0), -2.0 * a)
-    close(t.scaled(flat(A), 0.7), 0.7 * A)
-    close(t.dot(flat(a), flat(b)), a @ b)
+    close(vec.plus(flat(a), 0.3, flat(b)), a + 0.3 * b)
+    close(vec.times(flat(a), -2.0), -2.0 * a)
+    close(vec.scaled(flat(A), 0.7), 0.7 * A)
+    close(vec.dot(flat(a), flat(b)), a @ b)
     close(t.add_outer(flat(a), flat(b), flat(A)), A + np.outer(a, b))
     close(t.zero_matrix(flat(a)), np.zeros((dim, dim)))
 
@@ -66,17 +67,17 @@ def test_vectors(dim):
 @pytest.mark.parametrize(("m", "n"), [(1, 1), (2, 2), (3, 3), (3, 9), (4, 2)])
 def test_all_products_and_sums_run_fastest_over_the_second_tuple(m, n):
     b, a = numbers(m, seed=3), numbers(n, seed=4)
-    close(t.outer(flat(b), flat(a)), np.outer(b, a))
-    close(t.outer_sum(flat(b), flat(a)), np.add.outer(b, a))
+    close(vec.outer(flat(b), flat(a)), np.outer(b, a))
+    close(vec.outer_sum(flat(b), flat(a)), np.add.outer(b, a))
 
 
 @DIMENSIONS
 def test_rows_of_arrays(dim):
     like, vectors, matrices = (0.0,) * dim, numbers(4, dim), numbers(4, dim * dim, seed=2)
-    assert t.vector(like, vectors, 2) == flat(vectors[2])
+    assert vec.vector(like, vectors, 2) == flat(vectors[2])
     assert t.matrix((0.0,) * dim**2, matrices, 3) == flat(matrices[3])
     assert t.symmetric(like, numbers(4, 6), 1) == flat(numbers(4, 6)[1, : 4 if dim == 2 else 6])
-    assert t.pick(tuple(map(flat, vectors.T)), 1) == flat(vectors[1])
+    assert vec.pick(tuple(map(flat, vectors.T)), 1) == flat(vectors[1])
 
 
 @DIMENSIONS
@@ -163,11 +164,11 @@ def test_rotation_of_a_deformation(angle):
 def _all_of_them(v, g, A, stress, strain, like):
     """Use every function that has a body for each dimension."""
     T = t.symmetric(v, stress, 0)
-    u = t.plus(t.times(v, 0.5), t.dot(v, g), t.apply(g, T))
+    u = vec.plus(vec.times(v, 0.5), vec.dot(v, g), t.apply(g, T))
     B = t.add_outer(u, g, t.product(A, t.increment(A)))
     turned = t.turn(A, t.six(A, stress, 0, 0))
     work = t.work_of(turned, t.solid_strain(B, 0.1), strain)
-    return t.scaled(t.outer(u, B), t.determinant(B)), t.outer_sum(g, t.zero_matrix(v)), work
+    return vec.scaled(vec.outer(u, B), t.determinant(B)), vec.outer_sum(g, t.zero_matrix(v)), work
 
 
 @DIMENSIONS
