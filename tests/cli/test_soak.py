@@ -12,6 +12,7 @@ import xml.etree.ElementTree as ElementTree
 
 import pytest
 from fuzz import generated, mutated
+from plate import GROWING
 from promises import begin, cramp, differences, run_in_pieces
 from runs import INPUTS
 
@@ -40,13 +41,14 @@ def test_1_a_whole_deck_in_pieces_is_the_same_to_the_byte(tmp_path, deck):
 
 
 def test_2_thirty_kills_at_random_moments_lose_nothing(here):
-    """kill -9, with other numbers of threads in between; the end is that of a whole run."""
+    """kill -9 of a crack that grows, with other numbers of threads; the end is that of a whole run."""
     dice, kills, runs, ends = random.Random(SEED), 0, 0, []
-    assert cramp("run", "plate.yaml", "-o", "whole.run", *SETTINGS, *HOW).returncode == 0
+    (here / "growing.yaml").write_text(GROWING, encoding="utf-8")
+    assert cramp("run", "growing.yaml", "-o", "whole.run", *SETTINGS, *HOW).returncode == 0
     while kills < KILLS:
         runs += 1
         run = here / f"{runs}.run"
-        words = ("run", "plate.yaml", "-o", run, *SETTINGS, *HOW)
+        words = ("run", "growing.yaml", "-o", run, *SETTINGS, *HOW)
         for _ in range(3):
             with begin(*words, "-t", dice.choice((1, 2, 4))) as process:
                 time.sleep(dice.uniform(0.1, 12.0))
