@@ -41,7 +41,7 @@ def test_1_a_whole_deck_in_pieces_is_the_same_to_the_byte(tmp_path, deck):
 
 
 def test_2_thirty_kills_at_random_moments_lose_nothing(here):
-    """kill -9 of a crack that grows, with other numbers of threads; the end is that of a whole run."""
+    """kill -9 while a crack grows, other numbers of threads; the end is that of a whole run."""
     dice, kills, runs, ends = random.Random(SEED), 0, 0, []
     (here / "growing.yaml").write_text(GROWING, encoding="utf-8")
     assert cramp("run", "growing.yaml", "-o", "whole.run", *SETTINGS, *HOW).returncode == 0
