@@ -123,9 +123,10 @@ def look_around(
             # as a particle there: the share of the side, and of the mean of both sides
             own, felt = cut + (1.0 - cut) * near / (near + far), near + (1.0 - cut) * far
             for row, share in ((mine, own), (facing, 1.0 - own)):
-                if row >= 0 and share > 0.0:
-                    seen.row[count], seen.weight[count], seen.mass[count] = row, S * share, felt
-                    heaviest = max(heaviest, felt)
+                if row >= 0 and share > 0.0 and mass[row] > 0.0:
+                    m = mass[row] if even else felt
+                    seen.row[count], seen.weight[count], seen.mass[count] = row, S * share, m
+                    heaviest = max(heaviest, m)
                     count += 1
     return count, weigh(seen, count, LIGHT * heaviest if even else inf)
 
