@@ -1,7 +1,7 @@
 """A double cantilever beam whose crack grows when J is 400 J/m^2.
 
-Sharp tips leave what they release in the solid: after the first 5 mm, at 0.78 ms, the balance is off
-by 10 % and the run would end (docs/theory/growth.md, Limits).
+Sharp tips leave what they release in the solid: after the first 5 mm, at 0.78 ms, the balance is
+off by 10 % and the run would end (docs/theory/growth.md, Limits).
 """
 
 import pytest
