@@ -10,14 +10,14 @@ filter takes from the particles around it what the nodes do not see (docs/theory
 import numpy as np
 
 from cramp_cli.cracks.cloud import started_around
-from cramp_cli.cracks.rows import crossed_row
+from cramp_cli.cracks.rows import find_row
 from cramp_cli.cracks.tip_nodes import FAR, along_crack
 from cramp_cli.numerics.kernel import kernel
 from cramp_cli.shapes.shape import offsets, weights
 from cramp_cli.state.growth import running_tips
 
 HELD, FREE = 2.0, 3.0  # cells behind a tip up to where faces are resisted in full, and at all
-RESISTED = 0.7  # share of the momentum that parts two faces, taken in a step
+RESISTED = 0.6  # share of the momentum that parts two faces, taken in a step
 CORE, SKIN = 3.0, 1.0  # cells around a tip that are filtered, and in which the filter fades
 SEEN = 3.0  # cells beyond that whose particles share nodes with those filtered
 
@@ -28,12 +28,16 @@ def resist_opening(model, state, scratch) -> None:
     place = (lattice.width, lattice.lower, model.strides)
     for tip in running_tips(state.growth):
         free = min(FREE, float(state.growth.length[tip]) / lattice.width)
-        _resist(grid, scratch.rows, state.paths, tip, free, *place, model.dt)
+        group = int(model.groups.of_crack[tip // 2])
+        _resist(grid, scratch.rows, state.paths, tip, group, free, *place, model.dt)
 
 
 @kernel
-def _resist(grid, rows, paths, tip, free, width, lower, strides, dt):
-    """Let both sides of the nodes within `free` cells behind a tip lose relative momentum."""
+def _resist(grid, rows, paths, tip, group, free, width, lower, strides, dt):
+    """Let both sides of the nodes within `free` cells behind a tip lose relative momentum.
+
+    group: contact group of the bodies that the crack cuts; others may share its nodes
+    """
     crack = tip // 2
     first, last = paths.start[crack], paths.start[crack + 1] - 1
     at = first if tip % 2 == 0 else last
@@ -42,15 +46,16 @@ def _resist(grid, rows, paths, tip, free, width, lower, strides, dt):
         node = rows.tipped[i]
         if rows.tip[node] != tip:
             continue
-        across = crossed_row(rows, node, crack)
-        if across < 0 or mass[node] <= 0.0 or mass[across] <= 0.0:
+        own = find_row(rows, node, group, -1, 0, -1, 0)
+        across = find_row(rows, node, group, crack, -rows.tip_side[node], -1, 0)
+        if min(own, across) < 0 or mass[own] <= 0.0 or mass[across] <= 0.0:
             continue
         x = lower[0] + node % strides[1] * width
         y = lower[1] + node // strides[1] * width
         ahead = along_crack(paths.point, first, last, at, x, y, FAR * width)[0]
         share = RESISTED * min(max((free + ahead / width) / (FREE - HELD), 0.0), 1.0)
         if share > 0.0:
-            _bring_together(grid, node, across, share, len(strides), dt)
+            _bring_together(grid, own, across, share, len(strides), dt)
 
 
 @kernel

@@ -1,15 +1,20 @@
-"""A double cantilever beam whose crack grows when J is 400 J/m^2."""
+"""A double cantilever beam whose crack grows when J is 400 J/m^2.
+
+Sharp tips leave what they release in the solid: after the first 5 mm, at 0.78 ms, the balance is
+off by 10 % and the run would end (docs/theory/growth.md, Limits).
+"""
 
 import pytest
 from runs import run_input
 
 pytestmark = [pytest.mark.verification, pytest.mark.slow]
 GROWING = "propagation={criterion: critical_J}"
+UNTIL = {"smooth": "0.9 ms", "sharp": "0.75 ms"}
 
 
 @pytest.fixture(scope="module", params=["smooth", "sharp"])
 def run(request):
-    settings = (GROWING, f"solver.tips={request.param}", "solver.end_time=0.9 ms")
+    settings = (GROWING, f"solver.tips={request.param}", f"solver.end_time={UNTIL[request.param]}")
     return run_input("dcb", *settings)
 
 
