@@ -88,6 +88,7 @@ class Conditions:
 
     names: tuple  # of boundaries, for reactions
     holds: tuple = ()
+    contested: tuple = ()  # pairs (earlier, later) of holds that want the same rows otherwise
     mirrors: tuple = ()
     forces: tuple = ()
     tractions: tuple = ()
@@ -125,6 +126,8 @@ def meet_rows(conditions, scratch, width) -> None:
             held.lower,
             held.upper,
         )
+    for earlier, later in conditions.contested:
+        _give_way(scratch.held[earlier], scratch.held[later])
     for plane, free in zip(conditions.mirrors, scratch.free, strict=True):
         m, segments = plane.mirror, scratch.segments
         if m.crack >= 0:
@@ -143,6 +146,14 @@ def meet_rows(conditions, scratch, width) -> None:
                 width,
             )
     _share_nodes(conditions, scratch)
+
+
+def _give_way(earlier, later) -> None:
+    """Leave rows that both hold to the later one: two reactions in one row would book no work."""
+    rows, count = earlier
+    kept = np.setdiff1d(rows[:count], later[0][: later[1]])
+    rows[: len(kept)] = kept
+    earlier[1] = len(kept)
 
 
 def _share_nodes(conditions, scratch) -> None:

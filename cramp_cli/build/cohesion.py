@@ -5,6 +5,7 @@ from math import inf, sqrt
 
 import numpy as np
 
+from cramp_cli.build.covered import CLOSE, covered_spans, distances
 from cramp_cli.cohesive.cubic import Cubic
 from cramp_cli.cohesive.elastic import Elastic
 from cramp_cli.cohesive.exponential import Exponential
@@ -36,20 +37,18 @@ def build_cohesion(description, paths) -> Cohesion | None:
 
 
 def _cover(description, paths, number, law) -> None:
-    """Give the points of a crack within its `traction_along` the number of its law."""
+    """Give the points of a crack where its law acts the number of that law."""
     crack, points = description.cracks[number], paths.crack(number)
-    steps = np.hypot(*np.diff(paths.origin[points], axis=0).T)
-    along = np.concatenate([[0.0], np.cumsum(steps)])
-    low, high = crack.traction_along or (0.0, inf)
-    slack = 1e-6 * crack.segment
+    along, slack = distances(paths.origin[points]), CLOSE * crack.segment
     if description.contact_of(crack).law == "glued":
         message = "must not be given for faces that are glued: they never part"
         raise DeckError([description.mistake(("cracks", number, "traction"), message)])
-    covered = (along >= low - slack) & (along <= high + slack)
-    if covered.sum() < 2:
-        path = ("cracks", number, "traction_along")
-        message = f"holds no piece of the crack; they are up to {crack.segment:.5g} m long"
-        raise DeckError([description.mistake(path, message)])
+    covered = np.zeros(len(along), dtype=bool)
+    for low, high in covered_spans(description, crack):
+        covered |= (along >= low - slack) & (along <= high + slack)
+    if not covered.any():
+        message = "covers no part of the crack that is inside a body"
+        raise DeckError([description.mistake(("cracks", number, "traction_along"), message)])
     paths.law[points] = np.where(covered, law, -1)
 
 

@@ -16,6 +16,7 @@ from cramp_cli.boundary.traction import Faces
 from cramp_cli.boundary.velocity import Held
 from cramp_cli.cracks.room import Obstacle
 from cramp_cli.deck.deck import DeckError
+from cramp_cli.deck.where import AXES
 from cramp_cli.materials.geometry import depth
 from cramp_cli.shapes.linear import Linear
 from cramp_cli.shapes.shape import is_ring, reaches_beyond
@@ -42,12 +43,25 @@ def build_conditions(deck, lattice, geometry, particles, blocks, paths) -> tuple
     conditions = Conditions(
         names=tuple(builder.names),
         holds=tuple(builder.holds),
+        contested=_contested(builder.holds),
         mirrors=tuple(builder.mirrors),
         forces=tuple(builder.forces),
         tractions=tuple(builder.tractions),
         gravity=tuple(builder.gravity),
     )
     return conditions, tuple(builder.obstacles)
+
+
+def _contested(holds) -> tuple:
+    """Return the pairs of holds that give a node different velocities: the later one counts."""
+    return tuple(
+        (n, n + 1 + m)
+        for n, one in enumerate(holds)
+        for m, other in enumerate(holds[n + 1 :])
+        if one.held.axis == other.held.axis
+        and (one.value, one.curve) != (other.value, other.curve)
+        and len(np.intersect1d(one.held.node, other.held.node))
+    )
 
 
 class _Builder:
@@ -129,6 +143,7 @@ class _Builder:
         crack = self._crack_on_plane(number, axis, at, side)
         mirror = Mirror(axis, on, self.nodes[on], on - step, on + step, crack)
         self.mirrors.append(MirrorPlane(mirror, number))
+        self._not_moved(number, axis, on)
         self._spoil(self.nodes[on], "a symmetry plane", crack)
         self._spoil(self.nodes[np.setdiff1d(plane, on)], "the end of a symmetry plane")
 
@@ -146,6 +161,16 @@ class _Builder:
         mirror = Mirror(0, on, self.nodes[on], on - 1, on + 1, -1)
         self.mirrors.append(MirrorPlane(mirror, len(self.names)))
         self._spoil(self.nodes[on], "the axis")
+
+    def _not_moved(self, number, axis, on):
+        """A symmetry plane stays where it is: no boundary on it moves its nodes along its normal."""
+        for other, boundary in enumerate(self.deck.boundary):
+            flat = boundary.where.planes == self.deck.boundary[number].where.planes
+            if flat and any(d == axis and speed for d, speed in boundary.components):
+                shared = boundary.where.contains(self.nodes[on], self.tolerance)
+                if shared.any():
+                    message = "moves a symmetry plane along its normal; that has no meaning"
+                    self.wrong(("boundary", other, "velocity", AXES[axis]), message)
 
     def _body_side(self, axis, at) -> int:
         """Return +1 or -1 for the side of a plane on which all particles lie, 0 if both."""

@@ -5,6 +5,7 @@ import numpy as np
 from cramp_cli.build.cohesion import build_cohesion, largest_step
 from cramp_cli.build.conditions import build_conditions
 from cramp_cli.build.contact import build_body_contact, build_crack_laws, build_groups
+from cramp_cli.build.covered import crack_line
 from cramp_cli.build.growth import build_propagation
 from cramp_cli.build.laws import law_of
 from cramp_cli.build.surface import settled
@@ -225,7 +226,7 @@ def _update(solver):
 
 
 def _paths(deck: Deck, lattice: Lattice) -> Paths:
-    lines = [crack.path(crack.segment) for crack in deck.cracks]
+    lines = [crack_line(deck, crack) for crack in deck.cracks]
     return make_paths(
         lines,
         ends=[(ENDS[crack.start], ENDS[crack.end]) for crack in deck.cracks],

@@ -14,6 +14,8 @@ from cramp_cli.contact.separation import separation
 from cramp_cli.cracks.contact import GLUED
 from cramp_cli.numerics.kernel import kernel
 
+FLUSH = 1e-9  # cells; bodies this close touch, or round-off would tell which nodes of a face do
+
 
 @kernel
 def list_windows(pairs, strides):
@@ -67,4 +69,5 @@ def find_normals(pairs, clouds, stencil, particles, half, laws, kind, flat, latt
         if size > 0.0:
             nx, ny = nx / size, ny / size
             pairs.normal[i, 0], pairs.normal[i, 1] = nx, ny
-            pairs.gap[i] = separation(clouds, stencil, particles, half, a, b, nx, ny)
+            apart = separation(clouds, stencil, particles, half, a, b, nx, ny)
+            pairs.gap[i] = apart - FLUSH * width

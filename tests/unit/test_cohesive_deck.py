@@ -140,9 +140,39 @@ def test_a_crack_on_a_symmetry_plane_has_no_law(grown):
         build_deck(DECK, **half)
 
 
-def test_a_part_shorter_than_a_piece_is_a_mistake():
-    with pytest.raises(DeckError, match="holds no piece of the crack; they are up to 0.5 m long"):
-        build_deck(DECK, cracks=[_cut([2.1, 2.4])])
+def covered(**changes):
+    """Return length and ends (m) of what carries a law on the crack of the deck."""
+    _, state, _ = build_deck(DECK, **changes)
+    x = state.paths.origin[state.paths.law == 0, 0]
+    return lay_out_faces(state.paths).length.sum(), x.min(), x.max()
+
+
+@pytest.mark.parametrize("part", [[2.1, 2.4], [2.1, 4.3], [2.0, 5.0]])
+def test_a_part_ends_where_the_deck_says(part):
+    """Points are put in where the part begins and ends; before, whole pieces of 0.5 m counted."""
+    expected = (part[1] - part[0], part[0], part[1])
+    assert covered(cracks=[_cut(part)]) == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.mark.parametrize("begin", [0.0, -0.2, -1.7])
+def test_a_law_acts_inside_the_solid_only(begin):
+    """A crack that begins in free space has no faces there."""
+    cut = _cut(points=[[begin, 5], [8, 5]])
+    assert covered(cracks=[cut]) == pytest.approx((8.0, 0.0, 8.0), abs=2e-6)
+
+
+def test_a_law_leaves_out_a_hole():
+    bodies = [{"name": "plate", "material": "m"}, {"name": "bore", "hole": True}]
+    bodies[0]["shape"] = {"type": "rectangle", "lower": [0, 0], "upper": [20, 10]}
+    bodies[1]["shape"] = {"type": "rectangle", "lower": [2.2, 3], "upper": [4.1, 7]}
+    length, *_ = covered(cracks=[_cut()], bodies=bodies)
+    assert length == pytest.approx(8.0 - 1.9, abs=4e-6)
+
+
+def test_a_part_outside_the_solid_is_a_mistake():
+    cut = _cut([0.1, 0.9], points=[[-1, 5], [8, 5]])
+    with pytest.raises(DeckError, match="covers no part of the crack that is inside a body"):
+        build_deck(DECK, cracks=[cut])
 
 
 def test_faces_that_are_glued_can_not_part():
@@ -158,8 +188,9 @@ def test_a_law_covers_its_part():
     assert len(model.cohesion.laws) == 1
 
 
-def _cut(part, **more):
-    crack = {"name": "cut", "points": [[0, 5], [8, 5]], "start": "edge", "traction_along": part}
+def _cut(part=None, **more):
+    crack = {"name": "cut", "points": [[0, 5], [8, 5]], "start": "edge"}
+    crack |= {"traction_along": part} if part else {}
     law = {"law": "triangular", "normal": {"peak": 2.0, "toughness": 3.0}}
     return crack | {"traction": law} | more
 
