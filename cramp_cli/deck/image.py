@@ -5,7 +5,6 @@ from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import ClassVar, Literal
 
-import numpy as np
 from pydantic import Field
 
 from cramp_cli.deck.files import FileShape
@@ -54,7 +53,7 @@ class Image(FileShape):
             yield ("grey",), f"no pixel of {self.short_name} is from {low} to {high}; {there}"
 
     @cached_property
-    def mask(self) -> np.ndarray:
+    def mask(self):
         """Which pixels belong to it: booleans by row, from below, and column."""
         found = greys(self.file, self.sha256)[::-1]
         return (found >= self.grey[0]) & (found <= self.grey[1])
@@ -66,6 +65,8 @@ class Image(FileShape):
 
     def contains(self, points):
         """Return which points lie in such a pixel; its left and lower border belong to it."""
+        import numpy as np
+
         column, row = np.floor((self.nudged(points) - self.origin) / self.side).astype(int).T
         rows, columns = self.mask.shape
         inside = (column >= 0) & (column < columns) & (row >= 0) & (row < rows)
@@ -74,6 +75,8 @@ class Image(FileShape):
 
     def bounds(self):
         """Return the corners of the box around all such pixels (m)."""
+        import numpy as np
+
         rows, columns = (np.flatnonzero(self.mask.any(axis=axis)) for axis in (1, 0))
         (x, y), side = self.origin, self.side
         lower = x + side * int(columns[0]), y + side * int(rows[0])
@@ -95,12 +98,14 @@ class Image(FileShape):
 
 
 @lru_cache(maxsize=8)
-def greys(file: str, sha256: str) -> np.ndarray:
+def greys(file: str, sha256: str):
     """Return the greys of a picture, 0 to 255, by row from above and column.
 
     sha256: of the file, so that another picture of the same name is read anew
     Raises PreparationError for what is no picture of 8 bit.
     """
+    import numpy as np
+
     name = shown(Path(file).name)
     try:
         from PIL import Image as Picture
@@ -123,9 +128,10 @@ def greys(file: str, sha256: str) -> np.ndarray:
         raise PreparationError(("file",), f"cannot read {name}: {problem}") from None
 
 
-def _runs(mask: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _runs(mask):
     """Return row, first column and column behind the last of all runs of pixels in a row."""
-    padded = np.pad(mask, ((0, 0), (1, 1))).astype(np.int8)
-    change = np.diff(padded, axis=1)
+    import numpy as np
+
+    change = np.diff(np.pad(mask, ((0, 0), (1, 1))).astype(np.int8), axis=1)
     row, first = np.nonzero(change == 1)
     return row, first, np.nonzero(change == -1)[1]

@@ -8,7 +8,6 @@ from typing import ClassVar, Literal
 from pydantic import Field
 
 from cramp_cli.deck.files import FileShape
-from cramp_cli.deck.mesh_file import is_surface, read_mesh, region, section
 from cramp_cli.deck.shape import KIND
 from cramp_cli.schema.section import PreparationError, Wrong
 from cramp_cli.schema.units import Length, Point
@@ -35,6 +34,8 @@ class Mesh(FileShape):
     @classmethod
     def prepare(cls, data: dict, folder: Path | None) -> dict:
         """Find the file and see whether it is a mesh."""
+        from cramp_cli.deck.mesh_file import read_mesh  # late: imports numpy
+
         data = super().prepare(data, folder)
         if isinstance(data.get("file"), str):
             read_mesh(data["file"], data["sha256"])
@@ -42,6 +43,8 @@ class Mesh(FileShape):
 
     def wrong_values(self) -> Iterator[Wrong]:
         """The group exists and has an area; a surface in space is cut somewhere."""
+        from cramp_cli.deck.mesh_file import is_surface, read_mesh
+
         mesh = read_mesh(self.file, self.sha256)
         if is_surface(mesh) and self.height is None:
             low, high = (self.unit * z for z in (mesh.points[:, 2].min(), mesh.points[:, 2].max()))
@@ -83,6 +86,8 @@ class Mesh(FileShape):
     @cached_property
     def _outline(self):
         from shapely import affinity
+
+        from cramp_cli.deck.mesh_file import read_mesh, region, section
 
         mesh = read_mesh(self.file, self.sha256)
         if self.height is None:
