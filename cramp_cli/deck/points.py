@@ -19,7 +19,10 @@ def read_into(data: dict, folder: Path | None) -> dict:
     name = data.get("file")
     if not isinstance(name, str) or "points" in data:
         return data
-    unit = _length(data.get("unit", 1.0))
+    try:
+        unit = LENGTH.validate_python(data.get("unit", 1.0))
+    except ValidationError:
+        return data  # the field will tell what is wrong with it
     rest = {key: value for key, value in data.items() if key not in ("file", "unit")}
     points = read_points(name, folder or Path())
     return {**rest, "points": [[unit * x, unit * y] for x, y in points]}
@@ -29,14 +32,6 @@ def unit_without_file(keys: set[str]) -> Iterator[Wrong]:
     """Yield a mistake if points of the deck itself are given a unit, which they carry already."""
     if "unit" in keys and "file" not in keys:
         yield ("unit",), "goes with file; points in the deck carry their own units"
-
-
-def _length(given: object) -> float:
-    """Return the length of a 1 in a file (m); a wrong one counts as a metre, and is told later."""
-    try:
-        return LENGTH.validate_python(given)
-    except ValidationError:
-        return 1.0
 
 
 def read_points(name: str, folder: Path) -> list[list[float]]:
