@@ -65,15 +65,15 @@ def read_bytes(name: str, folder: Path) -> bytes:
 
 def digests(data: Any, folder: Path) -> dict[str, str]:
     """Return the SHA-256 of every file that a deck names, by its name there, for the records."""
-    names = dict.fromkeys(_names(data))
+    names = dict.fromkeys(names_of_files(data))
     return {name: hashlib.sha256(read_bytes(name, folder)).hexdigest() for name in names}
 
 
-def _names(data: Any) -> Iterator[str]:
-    """Yield the values of all keys `file`."""
+def names_of_files(data: Any) -> Iterator[str]:
+    """Yield the values of all keys `file` of a deck."""
     if isinstance(data, dict):
         if isinstance(data.get("file"), str):
             yield data["file"]
         data = list(data.values())
     for value in data if isinstance(data, list) else ():
-        yield from _names(value)
+        yield from names_of_files(value)

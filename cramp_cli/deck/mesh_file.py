@@ -31,8 +31,8 @@ def read_mesh(file: str, sha256: str):
     import meshio
 
     name, said = shown(Path(file).name), io.StringIO()
-    try:
-        with contextlib.redirect_stdout(said):  # meshio prints some of its complaints and exits
+    try:  # meshio prints some of its complaints and exits; text in STL it takes for numbers first
+        with contextlib.redirect_stdout(said), np.errstate(over="ignore"):
             mesh = meshio.read(file)
     except (Exception, SystemExit) as problem:  # noqa: BLE001 (its readers raise anything)
         reason = str(problem).strip().splitlines()

@@ -10,6 +10,7 @@ from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined
 
 from cramp_cli.deck.deck import Deck
+from cramp_cli.deck.image import Greys
 from cramp_cli.deck.run import Radii
 from cramp_cli.deck.where import Span
 from cramp_cli.schema.curve import Constant
@@ -18,7 +19,11 @@ from cramp_cli.schema.units import Quantity
 
 SIGNS = {"gt": "> ", "ge": ">= ", "lt": "< ", "le": "<= "}
 WORDS = {str: "text", bool: "true or false", int: "whole number", float: "number"}
-SELDOM = {Span: "length (m), or [low, high]", Radii: "length (m), or a list of lengths"}
+SELDOM = {
+    Span: "length (m), or [low, high]",
+    Radii: "length (m), or a list of lengths",
+    Greys: "[low, high], whole numbers",
+}
 LATER = {
     ("CrackSection", "segment"): "half a cell",
     ("CrackSection", "contact"): "`contact.cracks`",
