@@ -11,7 +11,7 @@ from random import Random
 import numpy as np
 from PIL import Image
 
-SIZE, CELL, WALL = 240, 40.0, 7.0  # pixels: side of the picture, of a cell, width of a wall
+SIZE, CELL, WALL = 240, 48.0, 9.0  # pixels: side of the picture, of a cell, width of a wall
 JITTER = 0.25  # of a cell
 
 

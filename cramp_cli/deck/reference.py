@@ -10,7 +10,6 @@ from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined
 
 from cramp_cli.deck.deck import Deck
-from cramp_cli.deck.image import Greys
 from cramp_cli.deck.run import Radii
 from cramp_cli.deck.where import Span
 from cramp_cli.schema.curve import Constant
