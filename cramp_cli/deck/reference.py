@@ -18,11 +18,7 @@ from cramp_cli.schema.units import Quantity
 
 SIGNS = {"gt": "> ", "ge": ">= ", "lt": "< ", "le": "<= "}
 WORDS = {str: "text", bool: "true or false", int: "whole number", float: "number"}
-SELDOM = {
-    Span: "length (m), or [low, high]",
-    Radii: "length (m), or a list of lengths",
-    Greys: "[low, high], whole numbers",
-}
+SELDOM = {Span: "length (m), or [low, high]", Radii: "length (m), or a list of lengths"}
 LATER = {
     ("CrackSection", "segment"): "half a cell",
     ("CrackSection", "contact"): "`contact.cracks`",
