@@ -10,6 +10,11 @@ from PIL import Image
 from test_shapes_of_bodies import mistakes, points_of_grid, shape
 
 from cramp_cli.deck.deck import DeckError, read_deck, to_yaml
+from cramp_cli.output.manifest import Manifest
+from cramp_cli.study.figures import drawing
+from cramp_cli.study.outlines import solid_outlines
+from cramp_cli.study.preview import draw_deck
+from cramp_cli.study.templates import template_folder, write_template
 
 BOX = {"type": "rectangle", "lower": [0, 0], "upper": [4, 3]}
 DISK = {"type": "disk", "center": [1, 1], "radius": 0.25}
@@ -280,6 +285,29 @@ def test_the_resolved_deck_knows_its_files(picture, tmp_path):
         read_deck(run / "deck.yaml")
 
 
+def test_the_manifest_keeps_what_the_files_were_at_the_start(tmp_path):
+    begun = Manifest(tmp_path, "deck", 1, files={"p.png": "ab"})
+    assert begun.record["files_sha256"] == {"p.png": "ab"}
+    goes_on = Manifest(tmp_path, "deck", 1, {"step": 3, "wall_time": 1.0}, {})
+    assert goes_on.record["files_sha256"] == {"p.png": "ab"}
+
+
+def test_a_template_brings_its_files(tmp_path):
+    written = write_template("foam", tmp_path / "mine.yaml")
+    assert [path.name for path in written] == ["mine.yaml", "foam.png"]
+    assert read_deck(written[0]).bodies[0].name == "foam"
+
+
+def test_the_picture_of_the_foam_is_that_of_its_script(monkeypatch):
+    """Pixel by pixel: the file may be packed in another way."""
+    monkeypatch.syspath_prepend(template_folder())
+    from foam import Random, centres, picture
+
+    with Image.open(template_folder() / "foam.png") as file:
+        found = np.asarray(file.convert("L"))
+    assert (found == picture(centres(Random(6)))).all()
+
+
 # bodies of pieces
 
 EACH = """\
@@ -337,3 +365,16 @@ def test_mistakes_are_told_where_the_deck_has_them(tmp_path, old, new, told):
     with pytest.raises(DeckError) as caught:
         read_deck(write(tmp_path, EACH.replace(old, new)))
     assert told in str(caught.value)
+
+
+def test_two_hundred_disks_are_drawn_and_none_is_lost():
+    deck = read_deck(template_folder() / "packed_bed.yaml")
+    outlines = solid_outlines(deck)
+    assert len(outlines) == 204
+    grains = [outlines[number].area for number in range(200)]
+    assert grains == pytest.approx([pi * 0.003**2] * 200, rel=1e-3)
+    with drawing() as plt:
+        axes = draw_deck(plt, deck).axes[0]
+        texts = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert "rubber: grain_1, grain_2, ..., grain_200 (200 bodies)" in texts
+    assert len(axes.patches) == 2 * 204
