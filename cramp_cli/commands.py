@@ -103,6 +103,7 @@ def _simulate(deck, resolved: str, model, start, folder, signs, options: RunOpti
     from cramp_cli.simulation import simulate
 
     facts = {"end_time": deck.solver.end_time, "threads": options.threads, "places": start.places}
+    facts["files"] = deck.file_digests()
     with RunOutputs(folder, deck.source_text, resolved, **facts) as outputs:
         reporter = Reporter(outputs.log, options.progress, options.verbosity)
         for warning in deck.warnings:

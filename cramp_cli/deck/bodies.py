@@ -66,6 +66,11 @@ class BodySection(Section):
         None, description="its motion, if it is rigid: it touches others and nothing moves it"
     )
     shape: AnyShape = Field(description="the region; where bodies overlap the later one counts")
+    each: Flag = Field(
+        False,
+        description="make a body of every piece of the shape, NAME_1, NAME_2 ...: they touch each "
+        "other where there is contact between bodies",
+    )
     particles_per_cell: Count = Field(
         2, ge=1, le=4, description="particles along each side of a cell"
     )
@@ -82,6 +87,8 @@ class BodySection(Section):
 
     def wrong_values(self) -> Iterator[Wrong]:
         """A hole has no material and does not move; a rigid body has a motion of its own."""
+        if self.each and self.hole:
+            yield ("each",), "does not go with hole: true"
         if not self.hole and self.rigid is None:
             if self.material is None:
                 yield ("material",), "is missing"

@@ -10,7 +10,7 @@ from pydantic import Field
 
 from cramp_cli.deck.cohesive import AnyTraction
 from cramp_cli.deck.contact import AnyContact
-from cramp_cli.deck.points import read_into
+from cramp_cli.deck.points import UNIT, read_into, unit_without_file
 from cramp_cli.schema.section import Name, Section, Wrong, only_one
 from cramp_cli.schema.units import Angle, Length, Point, pair
 
@@ -54,7 +54,8 @@ class CrackSection(Section):
     name: Name = Field(description="its name")
     points: tuple[Point, ...] | None = Field(None, description="its points from start to end")
     arc: Arc | None = Field(None, description="an arc instead of points")
-    file: str | None = Field(None, description="csv file with one `x,y` row (m) for each point")
+    file: str | None = Field(None, description="csv file with one `x,y` row for each point")
+    unit: Length | None = Field(None, gt=0, description=UNIT)
     start: End = Field("tip", description="what its start is: tip, at an edge, or plain end")
     end: End = Field("tip", description="what its end is: tip, at an edge, or plain end")
     segment: Length | None = Field(
@@ -85,6 +86,7 @@ class CrackSection(Section):
     def wrong_keys(cls, keys: set[str]) -> Iterator[Wrong]:
         """The line is given in one way."""
         yield from only_one(keys, ("points", "arc", "file"))
+        yield from unit_without_file(keys)
 
     def wrong_values(self) -> Iterator[Wrong]:
         """It must have a length."""

@@ -13,6 +13,8 @@ from cramp_cli.deck.contact import AnyContact, ContactSection
 from cramp_cli.deck.contact_groups import contact_mistakes
 from cramp_cli.deck.crack_checks import crack_warnings
 from cramp_cli.deck.cracks import CrackSection
+from cramp_cli.deck.each import as_written, each_apart, each_mistakes
+from cramp_cli.deck.files import digests
 from cramp_cli.deck.growth_checks import growth_mistakes
 from cramp_cli.deck.lattice import Box
 from cramp_cli.deck.loads import AnyLoad
@@ -75,6 +77,7 @@ class Deck(Section):
 
     _source: Source = PrivateAttr(default_factory=lambda: Source("deck"))
     _folder: Path = PrivateAttr(default_factory=Path)
+    _numbers: tuple[int, ...] = PrivateAttr(())  # of the bodies, as the deck was written
     _warnings: list[Mistake] = PrivateAttr(default_factory=list)
 
     @property
@@ -94,7 +97,11 @@ class Deck(Section):
 
     def mistake(self, path: Iterable[str | int], message: str) -> Mistake:
         """Return a mistake at a path of keys, such as ("cracks", 0, "start")."""
-        return self._source.mistake(tuple(path), message)
+        return self._source.mistake(*as_written((tuple(path), message), self._numbers))
+
+    def file_digests(self) -> dict[str, str]:
+        """Return the SHA-256 of every file that the deck names, by its name there."""
+        return digests(self._source.data, self._folder)
 
     def lattice_box(self) -> Box:
         """Return lower and upper corner (m) of the grid and its cells along each axis."""
@@ -138,12 +145,15 @@ def check_deck(source: Source, folder: Path) -> Deck:
         parts = salvage(data, folder)
     wrong = [*name_mistakes(data), *geometry_mistakes(parts)]
     if deck is not None:
-        wrong += (*growth_mistakes(deck), *contact_mistakes(deck), *ring_mistakes(deck))
+        wrong += each_mistakes(deck)
+        deck, numbers = each_apart(deck)
+        between = (*growth_mistakes(deck), *contact_mistakes(deck), *ring_mistakes(deck))
+        wrong += [as_written(one, numbers) for one in between]
     found += [source.mistake(*one) for one in wrong]
     if found or deck is None:
         raise DeckError(found)
     deck = _filled(deck)
-    deck._source, deck._folder = source, folder
+    deck._source, deck._folder, deck._numbers = source, folder, numbers
     deck._warnings = [source.mistake(*one) for one in _warnings(deck)]
     return deck
 

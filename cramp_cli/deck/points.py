@@ -1,12 +1,17 @@
-"""Lists of points from files: one `x,y` row for each point, in metres."""
+"""Lists of points from files: one `x,y` row for each point, in metres or a unit of the deck."""
 
+from collections.abc import Iterator
 from math import isfinite
 from pathlib import Path
 
-from cramp_cli.schema.section import PreparationError
-from cramp_cli.schema.units import shown
+from pydantic import TypeAdapter, ValidationError
 
-LARGEST = 16 * 1024 * 1024  # bytes
+from cramp_cli.deck.files import read_bytes
+from cramp_cli.schema.section import PreparationError, Wrong
+from cramp_cli.schema.units import Length, shown
+
+UNIT = "length of a 1 in the file, such as 1 mm; a metre if not given"
+LENGTH = TypeAdapter(Length)
 
 
 def read_into(data: dict, folder: Path | None) -> dict:
@@ -14,8 +19,19 @@ def read_into(data: dict, folder: Path | None) -> dict:
     name = data.get("file")
     if not isinstance(name, str) or "points" in data:
         return data
-    rest = {key: value for key, value in data.items() if key != "file"}
-    return {**rest, "points": read_points(name, folder or Path())}
+    try:
+        unit = LENGTH.validate_python(data.get("unit", 1.0))
+    except ValidationError:
+        return data  # the field will tell what is wrong with it
+    rest = {key: value for key, value in data.items() if key not in ("file", "unit")}
+    points = read_points(name, folder or Path())
+    return {**rest, "points": [[unit * x, unit * y] for x, y in points]}
+
+
+def unit_without_file(keys: set[str]) -> Iterator[Wrong]:
+    """Yield a mistake if points of the deck itself are given a unit, which they carry already."""
+    if "unit" in keys and "file" not in keys:
+        yield ("unit",), "goes with file; points in the deck carry their own units"
 
 
 def read_points(name: str, folder: Path) -> list[list[float]]:
@@ -39,16 +55,6 @@ def read_points(name: str, folder: Path) -> list[list[float]]:
 
 def _text(name: str, folder: Path) -> str:
     try:
-        path = folder / name
-        if path.exists() and not path.is_file():
-            raise PreparationError(("file",), f"{shown(name)} is no file")
-        with path.open("rb") as file:
-            raw = file.read(LARGEST + 1)
-        if len(raw) > LARGEST:
-            raise PreparationError(("file",), f"is larger than {LARGEST >> 20} MiB")
-        return raw.decode("utf-8-sig")
+        return read_bytes(name, folder).decode("utf-8-sig")
     except UnicodeDecodeError:
         raise PreparationError(("file",), f"{shown(name)} is not UTF-8 text") from None
-    except (OSError, ValueError) as problem:
-        reason = getattr(problem, "strerror", None) or problem
-        raise PreparationError(("file",), f"cannot read {shown(name)}: {reason}") from None

@@ -33,6 +33,11 @@ LATER = {
 FAMILIES = {
     "shape": "shape",
     "shapes": "shape",
+    "assembly": "shape",
+    "array": "shape",
+    "pack": "shape",
+    "image": "shape",
+    "mesh": "shape",
     "curve": "curve",
     "loads": "load",
     "contact": "contact law",

@@ -7,7 +7,7 @@ so neighbours share no point and lose none; disk and ellipse leave their border 
 
 from collections.abc import Iterator
 from math import cos, hypot, radians, sin
-from typing import Literal
+from typing import ClassVar, Literal, Self
 
 from pydantic import Field
 
@@ -21,6 +21,8 @@ KIND = "kind of shape"
 
 class Shape(Section):
     """A region of the plane."""
+
+    places: ClassVar[tuple[str, ...]] = ()  # keys that hold points, which move with the shape
 
     def contains(self, points):
         """Return which of the (n, 2) points (m) lie inside, as (n,) booleans."""
@@ -39,6 +41,16 @@ class Shape(Section):
         centre = self.outline().centroid
         return centre.x, centre.y
 
+    def pieces(self) -> tuple["Shape", ...]:
+        """Return the shapes of which it is made, each one able to be a body of its own."""
+        return (self,)
+
+    def moved(self, way: tuple[float, float]) -> Self:
+        """Return the same shape elsewhere, by `way` (m)."""
+        fields = {name: getattr(self, name) for name in type(self).model_fields}
+        there = {name: shifted(fields[name], way) for name in self.places}
+        return type(self).model_construct(**fields | there)  # a copy would keep what is cached
+
     def nudged(self, points):
         """Return points moved a little to the upper right, off the border."""
         (x0, y0), (x1, y1) = self.bounds()
@@ -47,6 +59,8 @@ class Shape(Section):
 
 class Rectangle(Shape):
     """An upright rectangle between two corners."""
+
+    places: ClassVar = ("lower", "upper")
 
     type: Literal["rectangle"] = Field("rectangle", description=KIND)
     lower: Point = Field(description="lower left corner")
@@ -79,6 +93,8 @@ class Rectangle(Shape):
 
 class Ellipse(Shape):
     """An ellipse, turned by an angle counter-clockwise."""
+
+    places: ClassVar = ("center",)
 
     type: Literal["ellipse"] = Field("ellipse", description=KIND)
     center: Point = Field(description="its centre")
@@ -120,6 +136,8 @@ class Ellipse(Shape):
 class Disk(Shape):
     """A full circle."""
 
+    places: ClassVar = ("center",)
+
     type: Literal["disk"] = Field("disk", description=KIND)
     center: Point = Field(description="its centre")
     radius: Length = Field(gt=0, description="its radius")
@@ -143,6 +161,8 @@ class Disk(Shape):
 
 class Annulus(Shape):
     """The ring between two circles."""
+
+    places: ClassVar = ("center",)
 
     type: Literal["annulus"] = Field("annulus", description=KIND)
     center: Point = Field(description="its centre")
@@ -170,6 +190,15 @@ class Annulus(Shape):
     def centroid(self):
         """Return the centre (m)."""
         return self.center
+
+
+def shifted(place, way: tuple[float, float]):
+    """Return a point, a shape, or a list of either, moved by `way` (m)."""
+    if isinstance(place, Shape):
+        return place.moved(way)
+    if isinstance(place[0], float):
+        return place[0] + way[0], place[1] + way[1]
+    return tuple(shifted(one, way) for one in place)
 
 
 def _squared_distance(points, center):

@@ -2,22 +2,30 @@
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Literal
+from typing import ClassVar, Literal
 
 from pydantic import Field
 
-from cramp_cli.deck.points import read_into
+from cramp_cli.deck.array import Array
+from cramp_cli.deck.assembly import Union
+from cramp_cli.deck.image import Image
+from cramp_cli.deck.mesh import Mesh
+from cramp_cli.deck.pack import Pack
+from cramp_cli.deck.points import UNIT, read_into, unit_without_file
 from cramp_cli.deck.shape import KIND, Annulus, Disk, Ellipse, Rectangle, Shape
 from cramp_cli.schema.section import Wrong, one_of, only_one
-from cramp_cli.schema.units import Point
+from cramp_cli.schema.units import Length, Point
 
 
 class Polygon(Shape):
     """A polygon through its corners, closed by itself."""
 
+    places: ClassVar = ("points",)
+
     type: Literal["polygon"] = Field("polygon", description=KIND)
     points: tuple[Point, ...] | None = Field(None, min_length=3, description="its corners in order")
-    file: str | None = Field(None, description="csv file with one `x,y` row (m) for each corner")
+    file: str | None = Field(None, description="csv file with one `x,y` row for each corner")
+    unit: Length | None = Field(None, gt=0, description=UNIT)
 
     @classmethod
     def prepare(cls, data: dict, folder: Path | None) -> dict:
@@ -28,6 +36,7 @@ class Polygon(Shape):
     def wrong_keys(cls, keys: set[str]) -> Iterator[Wrong]:
         """Corners come from one place."""
         yield from only_one(keys, ("points", "file"))
+        yield from unit_without_file(keys)
 
     def wrong_values(self) -> Iterator[Wrong]:
         """It must not cross itself."""
@@ -60,36 +69,10 @@ class Polygon(Shape):
         return Region(self.points)
 
 
-class Union(Shape):
-    """All that lies in at least one of several shapes."""
-
-    type: Literal["union"] = Field("union", description=KIND)
-    of: tuple["AnyShape", ...] = Field(min_length=1, description="the shapes to join")
-
-    def contains(self, points):
-        """Return which points lie in one of the shapes."""
-        inside = self.of[0].contains(points)
-        for shape in self.of[1:]:
-            inside |= shape.contains(points)
-        return inside
-
-    def bounds(self):
-        """Return the corners of the box around all (m)."""
-        lowers, uppers = zip(*(shape.bounds() for shape in self.of), strict=True)
-        return (
-            tuple(map(min, zip(*lowers, strict=True))),
-            tuple(map(max, zip(*uppers, strict=True))),
-        )
-
-    def outline(self):
-        """Return the union of the outlines."""
-        from shapely import union_all
-
-        return union_all([shape.outline() for shape in self.of])
-
-
 class Difference(Shape):
     """A shape without what lies in others."""
+
+    places: ClassVar = ("of", "minus")
 
     type: Literal["difference"] = Field("difference", description=KIND)
     of: "AnyShape" = Field(description="the shape to cut")
@@ -124,6 +107,19 @@ class Difference(Shape):
         return self.of.outline() - union_all([shape.outline() for shape in self.minus])
 
 
-AnyShape = one_of("type", Rectangle, Disk, Ellipse, Polygon, Annulus, Union, Difference)
-for _shape in (Union, Difference):
+AnyShape = one_of(
+    "type",
+    Rectangle,
+    Disk,
+    Ellipse,
+    Polygon,
+    Annulus,
+    Union,
+    Difference,
+    Array,
+    Pack,
+    Image,
+    Mesh,
+)
+for _shape in (Union, Difference, Array, Pack):
     _shape.model_rebuild()

@@ -24,10 +24,16 @@ class Manifest:
     """The record of a run, on disk from its first moment and completed at its end.
 
     goes_on: what a checkpoint knows of the time before it: step and wall_time (s)
+    files: SHA-256 of the files that the deck names
     """
 
     def __init__(
-        self, folder: Path, deck_text: str, threads: int, goes_on: dict | None = None
+        self,
+        folder: Path,
+        deck_text: str,
+        threads: int,
+        goes_on: dict | None = None,
+        files: dict[str, str] | None = None,
     ) -> None:
         self.path = Path(folder) / MANIFEST
         self._begun = time.monotonic()
@@ -38,6 +44,7 @@ class Manifest:
             "versions": versions(),
             "source_hash": source_hash(),
             "deck_sha256": earlier.get("deck_sha256", sha256(deck_text)),
+            "files_sha256": earlier.get("files_sha256", files or {}),
             "argv": list(sys.argv),
             "directory": os.getcwd(),
             "host": socket.gethostname(),

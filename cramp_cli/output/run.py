@@ -37,7 +37,7 @@ class RunOutputs:
     fault of the program also in run.log.
 
     places: what `places` gave to the checkpoint from which the run goes on; rows and frames behind
-    it are cut off
+    it are cut off; files: SHA-256 of the files that the deck names, for the manifest
     """
 
     def __init__(
@@ -50,6 +50,7 @@ class RunOutputs:
         threads: int = 1,
         real: str = "f4",
         places: dict | None = None,
+        files: dict[str, str] | None = None,
     ) -> None:
         self.path, self._real = folder.path, real
         self._tables: dict[str, CsvTable] = {}
@@ -59,7 +60,7 @@ class RunOutputs:
         if places:
             folder.go_on()
             self._take_up(places)
-        self._manifest = Manifest(self.path, deck_text, threads, goes_on=places)
+        self._manifest = Manifest(self.path, deck_text, threads, places, files)
         if not places:
             folder.begin(deck_text, resolved_text)
             write_columns(self.path, HISTORY_COLUMNS)

@@ -48,13 +48,14 @@ class Region(NamedTuple):
 
 def solid_outlines(deck: Deck) -> dict[int, object]:
     """Return what later bodies leave of each body that is no hole, as shapely geometries."""
-    from shapely import union_all
+    from shapely import STRtree, union_all
 
-    left = {}
+    outlines = [body.shape.outline() for body in deck.bodies]
+    tree, left = STRtree(outlines), {}
     for number, body in enumerate(deck.bodies):
-        later = [other.shape.outline() for other in deck.bodies[number + 1 :]]
+        later = [outlines[other] for other in tree.query(outlines[number]) if other > number]
         if not body.hole:
-            left[number] = body.shape.outline() - union_all(later)
+            left[number] = outlines[number] - union_all(later)
     return left
 
 

@@ -10,6 +10,7 @@ from cramp_cli.study.quantities import Scale, scale_for
 
 MATERIALS = ("#CFE3F2", "#F8E0C0", "#D3EBDD", "#EAD9E6", "#F5D5CB", "#E4E4E4")
 MOST_LINES = 120  # grid lines along an axis; of a finer grid only every second, fifth ... is drawn
+MOST_NAMES = 8  # of bodies of a material in the legend
 ARROWS = 9  # on a loaded face
 
 
@@ -58,7 +59,10 @@ class Sketch:
 
     def _made_of(self, material: str | None) -> str:
         solid = [b for b in self.deck.bodies if not b.hole]
-        return ", ".join(b.name for b in solid if b.material == material)
+        names = [b.name for b in solid if b.material == material]
+        if len(names) > MOST_NAMES:
+            names = [f"{names[0]}, {names[1]}, ..., {names[-1]} ({len(names)} bodies)"]
+        return ", ".join(names)
 
     def _fill(self, hull, holes, colour, text) -> None:
         from matplotlib.patches import PathPatch

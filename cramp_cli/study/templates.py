@@ -5,7 +5,9 @@ import shutil
 from pathlib import Path
 
 import cramp_cli
+from cramp_cli.deck.files import names_of_files
 from cramp_cli.output.exits import FolderError
+from cramp_cli.schema.loader import read_source
 from cramp_cli.schema.section import unknown
 
 PACKAGE = Path(cramp_cli.__file__).parent
@@ -37,7 +39,7 @@ def list_text() -> str:
 
 
 def write_template(name: str, target: Path | None = None) -> list[Path]:
-    """Copy a template; a study brings its deck along, unless that is there already.
+    """Copy a template; a study brings its deck along, a deck its files, unless they are there.
 
     target: the new file; its name in this folder if None
     returns: the files written
@@ -51,13 +53,14 @@ def write_template(name: str, target: Path | None = None) -> list[Path]:
         raise FolderError(f"{target}: exists already; choose another file with -o")
     target.parent.mkdir(parents=True, exist_ok=True)
     shutil.copyfile(known[name], target)
-    return [target, *_deck_of(known[name], target.parent)]
+    return [target, *_brought(known[name], target.parent)]
 
 
-def _deck_of(study: Path, folder: Path) -> list[Path]:
-    """Copy the base deck of a study beside it; nothing for a deck."""
-    found = re.search(r"^deck: (.*)$", study.read_text(encoding="utf-8"), re.MULTILINE)
-    if found is None or (folder / found[1]).exists():
-        return []
-    shutil.copyfile(study.parent / found[1], folder / found[1])
-    return [folder / found[1]]
+def _brought(template: Path, folder: Path) -> list[Path]:
+    """Copy what a template names beside it: the base deck of a study, the files of a deck."""
+    data = read_source(str(template)).data
+    deck = [data["deck"]] if "deck" in data else []
+    missing = [name for name in (*deck, *names_of_files(data)) if not (folder / name).exists()]
+    for name in missing:
+        shutil.copyfile(template.parent / name, folder / name)
+    return [folder / name for name in missing]

@@ -162,7 +162,7 @@ def test_points_of_a_file_are_checked_too(tmp_path):
                 (
                     ("of", 1, "type"),
                     "unknown type 'disc'; did you mean 'disk'? (known: rectangle, disk, ellipse, "
-                    "polygon, annulus, union, difference)",
+                    "polygon, annulus, union, difference, array, pack, image, mesh)",
                 )
             ],
         ),
