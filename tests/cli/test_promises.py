@@ -99,6 +99,31 @@ def test_1_the_number_of_threads_does_not_matter(here):
     assert differences(here / "1.run", here / "4.run") == []
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("deck", "cell", "end"), [("composite", "0.5 mm", "42 us"), ("five_disks", "1 mm", "56 us")]
+)
+def test_1_cracks_that_grow_do_so_in_pieces_and_with_any_number_of_threads(
+    tmp_path, deck, cell, end
+):
+    """Round an inclusion; towards a contact. Both stops come while a tip runs."""
+    settings = [f"grid.cell={cell}", f"solver.end_time={end}", "output.every=20 us"]
+    path, every = INPUTS / f"{deck}.yaml", 100
+    options = {"overrides": settings, "checkpoint_every": (every, None)}
+    whole = run_in_pieces(path, tmp_path / "whole", **options)
+    with (whole / "growth.csv").open() as file:
+        steps = [int(row["step"]) for row in csv.DictReader(file) if row["kind"] == "growth"]
+    assert len(steps) > 6
+    stops = steps[2] + 1, steps[-2] + 1
+    assert differences(whole, run_in_pieces(path, tmp_path / "pieces", stops, **options)) == []
+    words = [word for setting in settings for word in ("-s", setting)]
+    for threads in (1, 2, 4):
+        run = tmp_path / f"{threads}.run"
+        more = ("-o", run, "-t", threads, "--checkpoint-every", every)
+        assert cramp("run", path, *more, *words).returncode == 0
+        assert differences(whole, run) == []
+
+
 def test_1_a_changed_deck_is_refused_by_the_name_of_the_key(here):
     run_in_pieces(here / "plate.yaml", here / "plate.run")
     told = r"solver.cfl: 0.5 in the run, 0.3 now"
