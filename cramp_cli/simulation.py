@@ -70,7 +70,7 @@ class Books:
     REMEMBERED = ("start", "largest", "error", "warned")  # by a checkpoint
 
     def __init__(self, state, solver):
-        self.limits, self.update = solver.energy_error, solver.update
+        self.limits, self.solver = solver.energy_error, solver
         self.start = sum(sum_energies(state.particles))
         self.largest = 0.0
         self.error = 0.0
@@ -123,11 +123,15 @@ class Books:
             reporter.message("warning", text)
 
     def _advice(self) -> str:
-        if self.update == "flip":
+        update, strain = self.solver.update, self.solver.strain
+        if self.solver.may_be_unstable:
+            better = strain.replace("-", "+")
+            return (
+                f"{update} with strain: {strain} may be unstable; use {better} or lower solver.cfl"
+            )
+        if update == "flip":
             return "Lower solver.cfl, use more particles per cell or a finer grid"
-        known = (
-            f"What {self.update} filters from particles is in damping_energy and no part of this"
-        )
+        known = f"What {update} filters from particles is in damping_energy and no part of this"
         return f"{known}.\nUse flip, a ramp instead of a step, or a finer grid"
 
 

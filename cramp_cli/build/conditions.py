@@ -163,7 +163,7 @@ class _Builder:
         self._spoil(self.nodes[on], "the axis")
 
     def _not_moved(self, number, axis, on):
-        """A symmetry plane stays where it is: no boundary moves its nodes along its normal."""
+        """Refuse a boundary on a symmetry plane that moves it along its normal."""
         for other, boundary in enumerate(self.deck.boundary):
             flat = boundary.where.planes == self.deck.boundary[number].where.planes
             if flat and any(d == axis and speed for d, speed in boundary.components):

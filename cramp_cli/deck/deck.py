@@ -179,6 +179,10 @@ def _filled(deck: Deck) -> Deck:
 
 def _warnings(deck: Deck) -> Iterator[Wrong]:
     yield from crack_warnings(parts_of(deck))
+    if deck.solver.may_be_unstable:
+        better = deck.solver.strain.replace("-", "+")
+        message = f"may grow without bound with {deck.solver.update}; use '{better}'"
+        yield ("solver", "strain"), f"'{deck.solver.strain}' {message} or a smaller cfl"
     for name, material in deck.materials.items():
         stiff = isinstance(material, Isotropic) and material.poisson > NEARLY_INCOMPRESSIBLE
         if deck.analysis == "plane_strain" and stiff:

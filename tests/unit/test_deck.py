@@ -237,6 +237,15 @@ def test_overrides_by_name_by_index_and_into_new_sections(write):
     assert deck.source_text == CRACKED
 
 
+def test_a_warning_of_schemes_that_may_be_unstable(write):
+    """fmpm(2) with usl- grows without bound at a cfl of 0.5, in a plate without cracks."""
+    pair = ["solver.update=fmpm(2)", "solver.strain=usl-"]
+    (found,) = read_deck(write(SMALL), pair).warnings
+    assert "solver.strain: 'usl-' may grow without bound with fmpm(2); use 'usl+'" in str(found)
+    for other in ("solver.cfl=0.1", "solver.update=xpic(2)", "solver.strain=usl+"):
+        assert read_deck(write(SMALL), [*pair, other]).warnings == []
+
+
 def test_doubts_are_warnings(write):
     settings = [
         "bodies.0.particles_per_cell=1",

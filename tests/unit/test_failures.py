@@ -99,3 +99,8 @@ def test_the_advice_is_that_for_the_update(update, words):
         judged(0.2, update=update)
     assert words in str(caught.value)
     assert "solver.energy_error.stop: 0.1" in str(caught.value)
+
+
+def test_the_advice_for_an_unstable_pair_of_schemes():
+    with pytest.raises(NumericalFailure, match=r"usl- may be unstable; use usl\+"):
+        judged(0.9, update="fmpm(2)", strain="usl-")
