@@ -58,8 +58,8 @@ def tell(tmp_path, monkeypatch):
 def test_ten_mistakes_and_two_more(tell):
     assert tell(TEN) == [
         "d.yaml:2:1: titel: unknown key; did you mean 'title'?",
-        "d.yaml:3:11: analysis: must be one of plane_strain, plane_stress, axisymmetric (got 'plane_strian'); "
-        "did you mean 'plane_strain'?",
+        "d.yaml:3:11: analysis: must be one of plane_strain, plane_stress, axisymmetric "
+        "(got 'plane_strian'); did you mean 'plane_strain'?",
         "d.yaml:6:34: materials.steel.density: '1190 lb' is no density; "
         "give kg/m^3 or a unit of that kind",
         "d.yaml:6:46: materials.steel.E: must be above 0 (got -210 GPa)",
