@@ -151,7 +151,7 @@ def meet_rows(conditions, scratch, width) -> None:
 def _give_way(earlier, later) -> None:
     """Leave rows that both hold to the later one: two reactions in one row would book no work."""
     rows, count = earlier
-    kept = np.setdiff1d(rows[:count], later[0][: later[1]])
+    kept = rows[:count][~np.isin(rows[:count], later[0][: later[1]])]
     rows[: len(kept)] = kept
     earlier[1] = len(kept)
 
