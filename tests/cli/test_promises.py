@@ -87,7 +87,7 @@ def test_1_all_that_the_loop_over_time_holds_is_kept_or_follows_from_the_state()
     follows |= {"begun_at"}
     kept = set(run.remember())
     assert set(vars(run)) - follows - {*DUES} == kept - {"due"}
-    assert set(vars(run.books)) - {"limits", "update"} == {*Books.REMEMBERED}
+    assert set(vars(run.books)) - {"limits", "solver"} == {*Books.REMEMBERED}
     assert set(vars(run.history_due)) == {"every", "slack", "count"}
 
 
