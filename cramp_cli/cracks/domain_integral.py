@@ -49,6 +49,13 @@ def weight(r, R0, R1):
 
 
 @kernel
+def fill_weights(q, r, R0, R1):
+    """Set the weights q at distances r from the tip (m), two arrays; none beyond R1."""
+    for i in range(len(r)):
+        q[i] = weight(r[i], R0, R1)[0] if r[i] < R1 else 0.0
+
+
+@kernel
 def integral_of_weight(R0, R1):
     """Return the integral of q over the full circle (m^2)."""
     fall = R1 - R0

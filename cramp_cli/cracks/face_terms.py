@@ -19,7 +19,7 @@ import numpy as np
 
 from cramp_cli.cracks.cohesion import tractions_now
 from cramp_cli.cracks.contact import FRICTIONAL
-from cramp_cli.cracks.domain_integral import beside_crack, weight
+from cramp_cli.cracks.domain_integral import beside_crack, fill_weights
 
 POINTS = 201  # of the quadrature along the crack
 
@@ -52,7 +52,8 @@ def drawn(model, state, tip, now, inner, radius) -> np.ndarray:
         return np.zeros(3)
     way, step, traction = _pieces(model, state, tip)
     middle = 0.5 * (way[1:] + way[:-1])
-    q = np.array([weight(r, inner, radius)[0] if r < radius else 0.0 for r in middle.tolist()])
+    q = np.zeros(len(middle))
+    fill_weights(q, middle, inner, radius)
     J = float(q @ np.sum(traction * step, axis=1))
     (ex, ey), side = now, 2 * tip.end - 1
     normal, along = side * (traction @ (-ey, ex)), side * (traction @ (ex, ey))
@@ -99,7 +100,8 @@ def _singular_integral(way, stress, inner, radius) -> float:
     way: distances of their ends from the tip (n + 1,), m; stress: of each piece (n,), Pa
     """
     u = np.linspace(0.0, sqrt(radius), POINTS)
-    q = np.array([weight(r, inner, radius)[0] for r in (u**2).tolist()])
+    q = np.zeros(POINTS)
+    fill_weights(q, u**2, inner, radius)
     area = np.concatenate([[0.0], np.cumsum(0.5 * (q[1:] + q[:-1]) * np.diff(u))])
     share = np.diff(np.interp(np.sqrt(way), u, area))
     return sqrt(2.0 / pi) * 2.0 * float(stress @ share)
