@@ -51,8 +51,14 @@ def cover_end(paths: Paths, crack: int, end: int, law: int) -> None:
 
 
 def make_room(paths: Paths, segments, node_count: int):
-    """Return lists of segments that hold all pieces of the cracks: the old ones if they do."""
+    """Return lists of segments with room for all pieces of the cracks: the old ones if they have.
+
+    What is listed stays listed: samples of this step must not depend on how much room there was.
+    """
     wanted = len(paths.point) - paths.crack_count
     if wanted <= len(segments.crack):
         return segments
-    return make_segments(node_count, 2 * wanted, 2 * len(segments.item))
+    larger = make_segments(node_count, 2 * wanted, 2 * len(segments.item))
+    for old, new in zip(segments, larger, strict=True):
+        new[: len(old)] = old
+    return larger

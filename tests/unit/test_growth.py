@@ -67,8 +67,10 @@ def test_an_end_is_closed_where_it_arrives(paths):
 def test_lists_of_segments_grow_with_the_cracks(paths):
     segments = make_segments(4, 3, 10)
     assert make_room(paths, segments, 4) is segments
+    segments.head[2], segments.used[0], segments.ends[0, 1] = 0, 1, 7.0
     more = make_room(add_point(paths, 0, 1), segments, 4)
     assert len(more.crack) >= 4
+    assert (more.head[2], more.used[0], more.ends[0, 1]) == (0, 1, 7.0)  # as it was listed
 
 
 def pull(drive, release=1.0, before=0.0):
