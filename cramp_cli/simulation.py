@@ -1,138 +1,30 @@
 """The loop over time: step, and whatever is due after it."""
 
-from collections import defaultdict
 from contextlib import contextmanager
 from time import perf_counter
 
 import numpy as np
 
+from cramp_cli.clock import Due, Stopwatch
 from cramp_cli.cracks.account import growth_of_ends, path_rows
-from cramp_cli.cracks.cohesion import cohesive_energies, parted_points, tractions_now
+from cramp_cli.cracks.cohesion import parted_points, tractions_now
 from cramp_cli.cracks.fields import find_rows, list_cracks
 from cramp_cli.cracks.grow import blind_tips, grow
 from cramp_cli.cracks.tips import sample_tips
+from cramp_cli.energy_balance import Balance
 from cramp_cli.output.summary import Summary
 from cramp_cli.scratch import make_scratch
 from cramp_cli.state.failure import NumericalFailure
 from cramp_cli.state.health import check_health
-from cramp_cli.state.measures import FIELDS, momentum, sum_energies
+from cramp_cli.state.measures import FIELDS
 from cramp_cli.state.particles import is_deleted
 from cramp_cli.step import step
 from cramp_cli.transfer.sums import locate_particles
 
 HEALTH_EVERY = 20  # steps
-SETTLED = 50  # steps before the energy balance is judged: the first loads meet a body at rest
 DUES = ("history_due", "tips_due", "frame_due")
 MOST_REMARKS = 20  # of single particles
 COMPILING = 2.0  # s; a first step that takes longer has compiled kernels
-
-
-class Due:
-    """Says at which steps something happens that is wanted every so many seconds."""
-
-    def __init__(self, every: float, dt: float):
-        self.every, self.slack, self.count = every, 1e-9 * dt, 0
-
-    def __call__(self, time: float) -> bool:
-        """Return True at the first step at or after the next multiple of `every`."""
-        if time < self.count * self.every - self.slack:
-            return False
-        self.count = int((time + self.slack) / self.every) + 1
-        return True
-
-
-class Stopwatch:
-    """Times the paragraphs of a step."""
-
-    def __init__(self):
-        self.seconds = defaultdict(float)
-
-    @contextmanager
-    def __call__(self, title: str):
-        """Add the time spent inside to the title."""
-        begin = perf_counter()
-        yield
-        self.seconds[title] += perf_counter() - begin
-
-    def table(self) -> str:
-        """Return titles with seconds and shares, the way of a step from top to bottom."""
-        total = sum(self.seconds.values()) or 1.0
-        rows = (f"{t:50} {s:9.3f} s {100 * s / total:5.1f} %" for t, s in self.seconds.items())
-        return "\n".join(rows)
-
-
-class Books:
-    """Keeps the energy balance and judges it.
-
-    solver: what the deck says about the solver, with the limits of the balance
-    """
-
-    REMEMBERED = ("start", "largest", "error", "warned")  # by a checkpoint
-
-    def __init__(self, state, solver):
-        self.limits, self.solver = solver.energy_error, solver
-        self.start = sum(sum_energies(state.particles))
-        self.largest = 0.0
-        self.error = 0.0
-        self.warned = False
-
-    def row(self, model, state) -> dict:
-        """Return the energies of a row of history.csv and keep the balance."""
-        kinetic, stored, plastic = sum_energies(state.particles)
-        books = state.books
-        damping, friction = float(books.damping[0]), float(books.friction[0])
-        fracture = float(books.fracture[0])
-        work = float(books.external[0])
-        held, parting = cohesive_energies(model, state)
-        taken = friction + plastic + damping + parting + fracture
-        spent = kinetic + stored + held + taken
-        self.largest = max(self.largest, kinetic + stored + held, abs(work), taken)
-        self.error = (spent - self.start - work) / self.largest if self.largest else 0.0
-        total = momentum(state.particles)
-        return {
-            "step": state.step,
-            "time": state.time,
-            "dt": model.dt,
-            "kinetic_energy": kinetic,
-            "strain_energy": stored,
-            "fracture_energy": fracture,
-            "cohesive_stored": held,
-            "cohesive_energy": parting,
-            "friction_energy": friction,
-            "plastic_energy": plastic,
-            "damping_energy": damping,
-            "external_work": work,
-            "energy_error": self.error,
-            "momentum_x": float(total[0]),
-            "momentum_y": float(total[1]),
-        }
-
-    def judge(self, state, reporter) -> None:
-        """Warn once when the balance is off by more than the first limit, stop at the second."""
-        if state.step < SETTLED:
-            return
-        where = f"step {state.step}, t = {state.time:.6g} s"
-        text = f"{where}: the energy balance is off by {100 * self.error:.3g} %"
-        if abs(self.error) > self.limits.stop:
-            raise NumericalFailure(
-                f"{text} (solver.energy_error.stop: {self.limits.stop:g}).\n{self._advice()}; "
-                "look at energy_error in history.csv for when it began."
-            )
-        if abs(self.error) > self.limits.warn and not self.warned:
-            self.warned = True
-            reporter.message("warning", text)
-
-    def _advice(self) -> str:
-        update, strain = self.solver.update, self.solver.strain
-        if self.solver.may_be_unstable:
-            better = strain.replace("-", "+")
-            return (
-                f"{update} with strain: {strain} may be unstable; use {better} or lower solver.cfl"
-            )
-        if update == "flip":
-            return "Lower solver.cfl, use more particles per cell or a finer grid"
-        known = f"What {update} filters from particles is in damping_energy and no part of this"
-        return f"{known}.\nUse flip, a ramp instead of a step, or a finer grid"
 
 
 def simulate(
@@ -175,7 +67,7 @@ def simulate(
         reporter.message("info", run.watch.table())
     speed = run.steps_after_first() * len(state.particles.mass) / max(wall - first, 1e-9)
     grown = tuple(growth_of_ends(model, state))
-    return Summary(state.step, state.time, wall, run.tips, run.books.error, speed or None, grown)
+    return Summary(state.step, state.time, wall, run.tips, run.balance.error, speed or None, grown)
 
 
 class _Run:
@@ -185,7 +77,7 @@ class _Run:
         self.deck, self.model, self.state = deck, model, state
         self.outputs, self.reporter, self.keeper = outputs, reporter, keeper
         self.scratch, self.watch = make_scratch(model, state, threads), Stopwatch()
-        self.books, self.begun_at = Books(state, deck.solver), state.step
+        self.balance, self.begun_at = Balance(state, deck.solver), state.step
         self.history_due = Due(deck.output.history_every, model.dt)
         self.tips_due = Due(deck.fracture.every, model.dt)
         self.frame_due = Due(deck.output.every, model.dt)
@@ -232,7 +124,7 @@ class _Run:
         """Return what a checkpoint keeps of this loop: all that does not follow from the state."""
         check_health(self.model, self.state)  # a checkpoint of an ill state is of no use
         return {
-            "books": {name: getattr(self.books, name) for name in Books.REMEMBERED},
+            "balance": {name: getattr(self.balance, name) for name in Balance.REMEMBERED},
             "due": {name: getattr(self, name).count for name in DUES},
             "tips": self.tips,
             "written": sorted(self.written),
@@ -242,7 +134,7 @@ class _Run:
 
     def recall(self, remembered) -> None:
         """Go on from what `remember` gave."""
-        vars(self.books).update(remembered["books"])
+        vars(self.balance).update(remembered["balance"])
         for name, count in remembered["due"].items():
             getattr(self, name).count = count
         self.tips, self.told = remembered["tips"], set(remembered["told"])
@@ -270,15 +162,15 @@ class _Run:
     def headline(self) -> dict:
         """Return the numbers worth a look while it runs."""
         if not self.tips:
-            return {"energy_error": self.books.error}
+            return {"energy_error": self.balance.error}
         return {name: self.tips[0][name] for name in ("J", "K_I", "K_II")}
 
     def _write(self, history_due, tips_due, frame_due) -> None:
         time = self.state.time
         if history_due(time) and self._first("history"):
-            books = self.books.row(self.model, self.state)
+            books = self.balance.row(self.model, self.state)
             self.outputs.history(books | self._reactions() | self._contact_forces())
-            self.books.judge(self.state, self.reporter)
+            self.balance.judge(self.state, self.reporter)
         if self.model.crack_names and tips_due(time) and self._first("tips"):
             self.tips = sample_tips(self.model, self.state, self.scratch)
             self.outputs.tips(self.tips)

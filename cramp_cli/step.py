@@ -81,9 +81,7 @@ def step(model, state, scratch, watch) -> None:
 
     with watch("8 cracks move"):
         if state.paths.crack_count:
-            find_velocity(
-                grid, count, model.strides
-            )  # of the first order, whatever moved the particles
+            find_velocity(grid, count, model.strides)  # the first order, whatever moved particles
             move_paths(model, state, scratch)
             book_pressures(model, state, scratch)
 

@@ -2,7 +2,7 @@
 
 The crack points carry the traction laws. The opening of a point is that of its two surfaces; the
 force of its share of the crack goes to the rows of its upper and of its lower side, one the
-opposite of the other, with the very weights with which the surfaces move (advect.py): the force
+opposite of the other, with the very weights with which the surfaces move (view.py): the force
 works on the motion of the surface and on nothing else.
 """
 
@@ -11,9 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from cramp_cli.cohesive.pressure import Pressure
-from cramp_cli.cracks.advect import make_seen
 from cramp_cli.cracks.faces import lay_out_faces, pull_points, spread, sum_stored
-from cramp_cli.cracks.fields import cut_of_points
+from cramp_cli.cracks.fields import cut_of_points, what_surfaces_see
+from cramp_cli.cracks.view import make_seen
 
 
 @dataclass(frozen=True)
@@ -46,16 +46,14 @@ def draw_faces(model, state, scratch) -> None:
     scratch.parted = ()
     if model.cohesion is None:
         return
-    paths, lattice, faces = state.paths, model.lattice, lay_out_faces(state.paths)
+    paths, faces = state.paths, lay_out_faces(state.paths)
     before, traction = paths.damage.copy(), np.zeros_like(paths.point)
     for number, law in enumerate(model.cohesion.at(state.time)):
         pull_points(traction, paths, faces.normal, law, number, 0.5 * model.dt, True)
-    place = (lattice.cells, lattice.width, lattice.lower, model.strides)
-    spread(
-        scratch.grid.force, make_seen(), make_seen(), traction, paths, faces,
-        cut_of_points(model, paths), scratch.grid.mass, scratch.rows, scratch.segments,
-        model.groups.of_crack, model.geometry.thickness, place,
-    )  # fmt: skip
+    force, mass, cut = scratch.grid.force, scratch.grid.mass, cut_of_points(model, paths)
+    see = (make_seen(), make_seen())
+    where = (cut, mass, *what_surfaces_see(model, scratch))
+    spread(force, *see, traction, paths, faces, *where, model.geometry.thickness)
     scratch.parted = np.flatnonzero((before < 1.0) & (paths.damage >= 1.0))
     scratch.drawn = (traction, paths.above - paths.below)
 

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from cramp_cli.cohesive.law import respond, stored
-from cramp_cli.cracks.advect import OFF_PLANE, look_around, side_normal
+from cramp_cli.cracks.view import look_from, side_normal
 from cramp_cli.numerics.kernel import kernel
 
 
@@ -77,38 +77,20 @@ def pull_points(traction, paths, normal, law, number, ahead, suffers):
 
 
 @kernel
-def look_from(seen, paths, faces, k, side, cut, mass, rows, segments, of_crack, place):
-    """Find the rows that the surface of point k sees on a side (+1 above, -1 below).
-
-    place: cells, width, lower and strides of the grid
-    returns: number of rows and the sum of their weights
-    """
-    cells, width, lower, strides = place
-    point, normal, off = paths.point, faces.normal, side * OFF_PLANE * width
-    surface = paths.above if side > 0 else paths.below
-    q = (point[k, 0] + off * normal[k, 0], point[k, 1] + off * normal[k, 1])
-    x, even = (surface[k, 0], surface[k, 1]), True
-    return look_around(
-        seen, even, mass, rows, segments, of_crack, faces.crack[k], side, cut[k], q, x,
-        cells, width, lower, strides,
-    )  # fmt: skip
-
-
-@kernel
-def spread(
-    force, up, down, traction, paths, faces, cut, mass, rows, segments, of_crack, thickness, place
-):
+def spread(force, up, down, traction, paths, faces, cut, mass, solid, place, thickness):
     """Add the tractions to the forces of the rows, equal and opposite on both sides.
 
+    cut, mass, solid, place: as in `look_from` (view.py), cut for every point
     up, down: room for what the two surfaces of a point see; where one of them sees no solid the
     point gives no force, and its traction is set to zero
     """
     for k in range(len(cut)):
         if traction[k, 0] == 0.0 and traction[k, 1] == 0.0:
             continue
-        solid = (cut, mass, rows, segments, of_crack, place)
-        over, weight_up = look_from(up, paths, faces, k, 1, *solid)
-        under, weight_down = look_from(down, paths, faces, k, -1, *solid)
+        crack, n = faces.crack[k], (faces.normal[k, 0], faces.normal[k, 1])
+        about = (cut[k], mass, solid, place)
+        over, weight_up = look_from(up, True, paths, k, crack, 1, n, *about)
+        under, weight_down = look_from(down, True, paths, k, crack, -1, n, *about)
         if weight_up <= 0.0 or weight_down <= 0.0:
             traction[k, 0] = traction[k, 1] = 0.0
             continue

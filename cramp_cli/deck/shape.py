@@ -5,6 +5,7 @@ border: a rectangle (and a polygon) owns its left and lower border but not the r
 so neighbours share no point and lose none; disk and ellipse leave their border to what is around.
 """
 
+from abc import abstractmethod
 from collections.abc import Iterator
 from math import cos, hypot, radians, sin
 from typing import ClassVar, Literal, Self
@@ -24,17 +25,17 @@ class Shape(Section):
 
     places: ClassVar[tuple[str, ...]] = ()  # keys that hold points, which move with the shape
 
+    @abstractmethod
     def contains(self, points):
         """Return which of the (n, 2) points (m) lie inside, as (n,) booleans."""
-        raise NotImplementedError
 
+    @abstractmethod
     def bounds(self) -> tuple[tuple[float, float], tuple[float, float]]:
         """Return the lower and the upper corner (m) of the box around the shape."""
-        raise NotImplementedError
 
+    @abstractmethod
     def outline(self):
         """Return the region as a shapely geometry; curves are 64 pieces to a quarter turn."""
-        raise NotImplementedError
 
     def centroid(self) -> tuple[float, float]:
         """Return the centre of the area (m)."""

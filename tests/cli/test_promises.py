@@ -24,13 +24,14 @@ from cramp_cli import simulation
 from cramp_cli.build import build
 from cramp_cli.build.model import time_step
 from cramp_cli.deck.deck import read_deck
+from cramp_cli.energy_balance import Balance
 from cramp_cli.numerics import cache
 from cramp_cli.output.checkpoint import checkpoints, read_state
 from cramp_cli.output.exits import FolderError
 from cramp_cli.output.fields import read_frames
 from cramp_cli.output.look import describe, facts
 from cramp_cli.output.stop import Signs
-from cramp_cli.simulation import DUES, MOST_REMARKS, Books, _Run
+from cramp_cli.simulation import DUES, MOST_REMARKS, _Run
 from cramp_cli.state.failure import NumericalFailure
 from cramp_cli.state.measures import FIELDS
 
@@ -97,7 +98,7 @@ def test_1_all_that_the_loop_over_time_holds_is_kept_or_follows_from_the_state()
     follows |= {"begun_at"}
     kept = set(run.remember())
     assert set(vars(run)) - follows - {*DUES} == kept - {"due"}
-    assert set(vars(run.books)) - {"limits", "solver"} == {*Books.REMEMBERED}
+    assert set(vars(run.balance)) - {"limits", "solver"} == {*Balance.REMEMBERED}
     assert set(vars(run.history_due)) == {"every", "slack", "count"}
 
 

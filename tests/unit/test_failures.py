@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from support import advance, build_deck, locate, read
 
-from cramp_cli.simulation import SETTLED, Books
+from cramp_cli.energy_balance import SETTLED, Balance
 from cramp_cli.state.failure import NumericalFailure
 from cramp_cli.state.particles import DELETED
 
@@ -39,7 +39,7 @@ def flying(**solver):
     state.particles.velocity[:] = 0.0
     state.particles.velocity[:, 0] = 0.2
     advance(model, state, scratch, int(8.0 / 0.2 / model.dt))
-    return state, scratch, Books(state, read(BLOCK).solver).start
+    return state, scratch, Balance(state, read(BLOCK).solver).start
 
 
 def test_particles_that_leave_are_deleted_and_named():
@@ -73,7 +73,7 @@ def judged(error, **solver):
     """Return what is said when the balance is off by a share."""
     _, state, _ = build_deck(BLOCK)
     state.step, ears = SETTLED, Ears()
-    books = Books(state, read(BLOCK, solver=solver).solver)
+    books = Balance(state, read(BLOCK, solver=solver).solver)
     books.error = error
     books.judge(state, ears)
     books.judge(state, ears)

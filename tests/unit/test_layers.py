@@ -21,7 +21,7 @@ LAYERS = (
     ("step",),
     ("deck", "output"),
     ("build",),
-    ("warm",),
+    ("warm", "clock", "energy_balance"),
     ("simulation",),
     ("study",),
     ("commands", "streams"),

@@ -6,7 +6,7 @@ from support import advance, build_deck, read
 
 from cramp_cli.cracks.cohesion import cohesive_energies, tractions_now
 from cramp_cli.cracks.faces import lay_out_faces
-from cramp_cli.simulation import Books
+from cramp_cli.energy_balance import Balance
 from cramp_cli.state.measures import cauchy_stress
 
 pytestmark = pytest.mark.verification
@@ -55,7 +55,7 @@ def parted(law, head):
     """Run a block until its halves have parted; return model, state and the books."""
     deck = read(BLOCK, **cut(law, FOOT, head))
     model, state, scratch = build_deck(BLOCK, **cut(law, FOOT, head))
-    books = Books(state, deck.solver)
+    books = Balance(state, deck.solver)
     while state.paths.damage.min() < 1.0:
         advance(model, state, scratch, 50)
         assert state.time < 0.02

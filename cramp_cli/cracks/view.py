@@ -1,0 +1,138 @@
+"""What the surfaces of a crack see of the grid: the rows of their side, and how much each counts.
+
+With these weights a surface moves (advect.py) and gives the stress on it to the rows (faces.py), so
+that the stress works on the motion of the surface and on nothing else.
+"""
+
+from math import inf
+from typing import NamedTuple
+
+import numpy as np
+
+from cramp_cli.cracks.crossing import ON_CRACK, crossed_cracks
+from cramp_cli.cracks.lines import of_group
+from cramp_cli.cracks.rows import find_row, row_on_side
+from cramp_cli.numerics.kernel import kernel
+from cramp_cli.numerics.vector import dot
+
+OFF_PLANE = 1e-4  # a surface looks at the nodes from this distance off the plane (cells)
+LIGHT = 0.1  # rows of less than this share of the heaviest one around count less in even weights
+
+
+class Seen(NamedTuple):
+    """What the point of a surface sees: room for two rows of each of the four nodes around it."""
+
+    row: np.ndarray  # (8,)
+    weight: np.ndarray  # (8,) what the row counts
+    mass: np.ndarray  # (8,) what it is weighed by (kg)
+
+
+def make_seen() -> Seen:
+    """Return room for what a point sees."""
+    return Seen(np.zeros(8, dtype=np.int64), np.zeros(8), np.zeros(8))
+
+
+@kernel
+def side_normal(point, k, first, last):
+    """Return the unit normal at crack point k that points above."""
+    i, j = max(k - 1, first), min(k + 1, last)
+    dx, dy = point[j, 0] - point[i, 0], point[j, 1] - point[i, 1]
+    size = np.sqrt(dx * dx + dy * dy)
+    return (-dy / size, dx / size) if size > 0.0 else (0.0, 0.0)
+
+
+@kernel
+def look_from(seen, even, paths, k, crack, side, normal, cut, mass, solid, place):
+    """Find the rows that a surface (+1 above, -1 below) of point k of a crack sees.
+
+    even: rows count by their linear functions, as a stress on a surface wants it, light rows less;
+    else by their masses as well
+    cut: share of the crack at the point, as of a particle there (tip_nodes.py)
+    solid: rows, segments, contact group of every crack; place: cells, width, lower, strides
+
+    returns: the number of rows and the sum of their weights
+    """
+    rows, segments, of_crack = solid
+    cells, width, lower, strides = place
+    surface = paths.above if side > 0 else paths.below
+    off = side * OFF_PLANE * width
+    qx, qy = paths.point[k, 0] + off * normal[0], paths.point[k, 1] + off * normal[1]
+    cell = dot(cell_of(qx, qy, place), strides)
+    i0, j0 = cell_of(surface[k, 0], surface[k, 1], place)
+    rx, ry = (surface[k, 0] - lower[0]) / width, (surface[k, 1] - lower[1]) / width
+    count, heaviest = 0, 0.0
+    for j in range(j0, j0 + 2):
+        for i in range(i0, i0 + 2):
+            node, n = dot((i, j), strides), (lower[0] + width * i, lower[1] + width * j)
+            tolerance = ON_CRACK * width
+            crossed = crossed_cracks(segments, cell, qx, qy, n[0], n[1], tolerance)
+            mine, facing = rows_of_surface(rows, crossed, of_crack, crack, side, node)
+            S = max(0.0, 1.0 - abs(rx - i)) * max(0.0, 1.0 - abs(ry - j))
+            near = mass[mine] if mine >= 0 else 0.0
+            far = mass[facing] if facing >= 0 else 0.0
+            if near + far <= 0.0:
+                continue
+            # as a particle there: the share of the side, and of the mean of both sides
+            own, felt = cut + (1.0 - cut) * near / (near + far), near + (1.0 - cut) * far
+            for row, share in ((mine, own), (facing, 1.0 - own)):
+                if row >= 0 and share > 0.0 and mass[row] > 0.0:
+                    m = mass[row] if even else felt
+                    seen.row[count], seen.weight[count], seen.mass[count] = row, S * share, m
+                    heaviest = max(heaviest, m)
+                    count += 1
+    return count, weigh(seen, count, LIGHT * heaviest if even else inf)
+
+
+@kernel
+def cell_of(x, y, place):
+    """Return the cell of a point, or the nearest one: steps along both axes."""
+    cells, width, lower, _ = place
+    i, j = int(np.floor((x - lower[0]) / width)), int(np.floor((y - lower[1]) / width))
+    return min(max(i, 0), cells[0] - 1), min(max(j, 0), cells[1] - 1)
+
+
+@kernel
+def rows_of_surface(rows, crossed, of_crack, crack, side, node):
+    """Return the rows of a node for one side of a crack and for the other, or -1.
+
+    Where rows of the node are told by this crack they decide: the row of the side, else the one
+    without the crack. Without such rows the cracks do that the line to the node has crossed. The
+    other side counts beside a tip only.
+    """
+    group = of_crack[crack]
+    a, side_a, _, b, side_b, _, _ = of_group(crossed, of_crack, group)
+    beside_tip = rows.tip[node] // 2 == crack
+    if not beside_tip and not is_told_by(rows, node, crack):
+        return find_row(rows, node, group, a, side_a, b, side_b), -1
+    other, other_side = (b, side_b) if a == crack else (a, side_a)
+    mine = row_on_side(rows, node, group, crack, side, other, other_side)
+    if not beside_tip:
+        return mine, -1
+    facing = row_on_side(rows, node, group, crack, -side, other, other_side)
+    return mine, facing if facing != mine else -1
+
+
+@kernel
+def is_told_by(rows, node, crack):
+    """Return whether a crack tells rows of a node."""
+    nodes = len(rows.first)
+    row = rows.first[node]
+    while row >= 0:
+        if rows.crack[row - nodes, 0] == crack or rows.crack[row - nodes, 1] == crack:
+            return True
+        row = rows.next[row - nodes]
+    return False
+
+
+@kernel
+def weigh(seen, count, enough):
+    """Weigh rows by mass up to what is `enough` (kg); by all of it if that is infinite.
+
+    returns: the sum of the weights
+    """
+    total = 0.0
+    for e in range(count):
+        m = seen.mass[e]
+        seen.weight[e] *= m if enough == inf else min(m / enough, 1.0)
+        total += seen.weight[e]
+    return total

@@ -1,0 +1,81 @@
+"""The energies of a run, and whether they balance (docs/theory/energy.md)."""
+
+from cramp_cli.cracks.cohesion import cohesive_energies
+from cramp_cli.state.failure import NumericalFailure
+from cramp_cli.state.measures import momentum, sum_energies
+
+SETTLED = 50  # steps before the energy balance is judged: the first loads meet a body at rest
+
+
+class Balance:
+    """Keeps the energy balance and judges it.
+
+    solver: what the deck says about the solver, with the limits of the balance
+    """
+
+    REMEMBERED = ("start", "largest", "error", "warned")  # by a checkpoint
+
+    def __init__(self, state, solver):
+        self.limits, self.solver = solver.energy_error, solver
+        self.start = sum(sum_energies(state.particles))
+        self.largest = 0.0
+        self.error = 0.0
+        self.warned = False
+
+    def row(self, model, state) -> dict:
+        """Return the energies of a row of history.csv and keep the balance."""
+        kinetic, stored, plastic = sum_energies(state.particles)
+        books = state.books
+        damping, friction = float(books.damping[0]), float(books.friction[0])
+        fracture = float(books.fracture[0])
+        work = float(books.external[0])
+        held, parting = cohesive_energies(model, state)
+        taken = friction + plastic + damping + parting + fracture
+        spent = kinetic + stored + held + taken
+        self.largest = max(self.largest, kinetic + stored + held, abs(work), taken)
+        self.error = (spent - self.start - work) / self.largest if self.largest else 0.0
+        total = momentum(state.particles)
+        return {
+            "step": state.step,
+            "time": state.time,
+            "dt": model.dt,
+            "kinetic_energy": kinetic,
+            "strain_energy": stored,
+            "fracture_energy": fracture,
+            "cohesive_stored": held,
+            "cohesive_energy": parting,
+            "friction_energy": friction,
+            "plastic_energy": plastic,
+            "damping_energy": damping,
+            "external_work": work,
+            "energy_error": self.error,
+            "momentum_x": float(total[0]),
+            "momentum_y": float(total[1]),
+        }
+
+    def judge(self, state, reporter) -> None:
+        """Warn once when the balance is off by more than the first limit, stop at the second."""
+        if state.step < SETTLED:
+            return
+        where = f"step {state.step}, t = {state.time:.6g} s"
+        text = f"{where}: the energy balance is off by {100 * self.error:.3g} %"
+        if abs(self.error) > self.limits.stop:
+            raise NumericalFailure(
+                f"{text} (solver.energy_error.stop: {self.limits.stop:g}).\n{self._advice()}; "
+                "look at energy_error in history.csv for when it began."
+            )
+        if abs(self.error) > self.limits.warn and not self.warned:
+            self.warned = True
+            reporter.message("warning", text)
+
+    def _advice(self) -> str:
+        update, strain = self.solver.update, self.solver.strain
+        if self.solver.may_be_unstable:
+            better = strain.replace("-", "+")
+            return (
+                f"{update} with strain: {strain} may be unstable; use {better} or lower solver.cfl"
+            )
+        if update == "flip":
+            return "Lower solver.cfl, use more particles per cell or a finer grid"
+        known = f"What {update} filters from particles is in damping_energy and no part of this"
+        return f"{known}.\nUse flip, a ramp instead of a step, or a finer grid"
