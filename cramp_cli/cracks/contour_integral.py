@@ -13,7 +13,7 @@ from cramp_cli.cracks.crossing import ON_CRACK, crosses
 from cramp_cli.cracks.rows import crossed_row
 from cramp_cli.materials.law import same_law
 from cramp_cli.numerics.kernel import kernel
-from cramp_cli.numerics.tensor import (
+from cramp_cli.numerics.matrix import (
     matrix,
     product,
     rotation_of,

@@ -6,7 +6,8 @@ from typing import NamedTuple
 from cramp_cli.materials.law import Strained, confined_modulus, kirchhoff_stress
 from cramp_cli.numerics.dispatch import generic
 from cramp_cli.numerics.kernel import inlined_kernel
-from cramp_cli.numerics.tensor import solid_matrix, solid_strain
+from cramp_cli.numerics.matrix import solid_matrix
+from cramp_cli.numerics.symmetric import solid_strain
 
 PASSES = 50
 SETTLED = 1e-14  # normal stress that is none, in confined moduli

@@ -16,7 +16,7 @@ from cramp_cli.materials.law import (
     shear_modulus,
 )
 from cramp_cli.numerics.kernel import inlined_kernel
-from cramp_cli.numerics.tensor import deviator, square_of, work_of
+from cramp_cli.numerics.symmetric import deviator, square_of, work_of
 from cramp_cli.numerics.vector import added, scaled
 from cramp_cli.state.particles import DISSIPATED, OWN, PLASTIC_STRAIN
 

@@ -14,12 +14,8 @@ from cramp_cli.materials.law import (
     poisson_ratio,
     shear_modulus,
 )
-from cramp_cli.numerics.tensor import (
-    determinant,
-    deviator,
-    left_cauchy_green,
-    squared,
-)
+from cramp_cli.numerics.matrix import determinant
+from cramp_cli.numerics.symmetric import deviator, left_cauchy_green, squared
 from cramp_cli.numerics.vector import added, scaled
 
 

@@ -13,7 +13,8 @@ from cramp_cli.materials.law import (
     poisson_ratio,
     shear_modulus,
 )
-from cramp_cli.numerics.tensor import determinant, left_cauchy_green
+from cramp_cli.numerics.matrix import determinant
+from cramp_cli.numerics.symmetric import left_cauchy_green
 
 
 class NeoHookean(NamedTuple):

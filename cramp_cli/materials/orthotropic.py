@@ -15,12 +15,8 @@ from cramp_cli.materials.law import (
     poisson_ratio,
     shear_modulus,
 )
-from cramp_cli.numerics.tensor import (
-    congruent,
-    product,
-    rotation_of,
-    transposed,
-)
+from cramp_cli.numerics.matrix import product, rotation_of, transposed
+from cramp_cli.numerics.symmetric import congruent
 from cramp_cli.numerics.vector import added
 
 

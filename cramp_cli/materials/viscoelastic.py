@@ -17,7 +17,7 @@ from cramp_cli.materials.law import (
     shear_modulus,
 )
 from cramp_cli.numerics.dispatch import by_length
-from cramp_cli.numerics.tensor import (
+from cramp_cli.numerics.symmetric import (
     deviator,
     six,
     turn,

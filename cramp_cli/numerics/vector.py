@@ -43,6 +43,23 @@ def _(a, s, b):
 
 
 @by_length
+def total(a):
+    """Return the sum of the entries of a tuple."""
+    return a[0] + total(a[1:])
+
+
+@total.implement(1)
+def _(a):
+    return a[0]
+
+
+@by_length
+def shared_out(a):
+    """Return a tuple in proportion to `a` whose entries sum to 1."""
+    return scaled(a, 1.0 / total(a))
+
+
+@by_length
 def store(values, a, i, at):
     """Write the tuple `values` to row `i` of the array `a`, from column `at` on."""
     a[i, at] = values[0]

@@ -7,6 +7,7 @@ from math import floor
 from typing import NamedTuple
 
 from cramp_cli.numerics.kernel import inlined_kernel
+from cramp_cli.numerics.vector import shared_out
 from cramp_cli.shapes.shape import (
     along_axis,
     first_node,
@@ -60,9 +61,7 @@ def spline(a):
 def _of_a_point(shape, r):
     # Of a point at the edge of a particle that has moved, a node may lie outside those of the
     # particle, with a weight of a few percent: the others take its share.
-    a, b, c = spline(abs(r)), spline(abs(r - 1.0)), spline(abs(r - 2.0))
-    whole = a + b + c
-    return a / whole, b / whole, c / whole
+    return shared_out((spline(abs(r)), spline(abs(r - 1.0)), spline(abs(r - 2.0))))
 
 
 plane(QuadraticSpline, of_a_point=_of_a_point)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from cramp_cli.numerics.kernel import kernel
-from cramp_cli.numerics.tensor import determinant, matrix, zero_matrix
+from cramp_cli.numerics.matrix import determinant, matrix, zero_matrix
 from cramp_cli.state.failure import NumericalFailure
 
 WELL, NOT_A_NUMBER, INVERTED = 0, 1, 2

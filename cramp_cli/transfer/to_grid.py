@@ -10,7 +10,7 @@ parts: (k, 3) runs of particles, first and last + 1, and the band they belong to
 from numpy import uint64
 
 from cramp_cli.numerics.kernel import kernel, particle_kernel
-from cramp_cli.numerics.tensor import apply, columns, symmetric
+from cramp_cli.numerics.symmetric import apply, columns, symmetric
 from cramp_cli.numerics.vector import (
     plus,
     scaled,

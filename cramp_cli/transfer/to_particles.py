@@ -10,17 +10,19 @@ from numpy import uint64
 from cramp_cli.materials.geometry import rate_across, strained
 from cramp_cli.materials.law import Straining
 from cramp_cli.numerics.kernel import kernel, particle_kernel
-from cramp_cli.numerics.tensor import (
+from cramp_cli.numerics.matrix import (
     add_outer,
     from_columns,
     increment,
-    kept,
     matrix,
     product,
+    zero_matrix,
+)
+from cramp_cli.numerics.symmetric import (
+    kept,
     six,
     turn,
     work_of,
-    zero_matrix,
 )
 from cramp_cli.numerics.vector import (
     dot,

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from cramp_cli.build.model import SHAPES
-from cramp_cli.numerics.tensor import columns, from_columns
+from cramp_cli.numerics.matrix import from_columns
+from cramp_cli.numerics.symmetric import columns
 from cramp_cli.shapes.bspline3 import CubicSpline
 from cramp_cli.shapes.linear import Linear
 from cramp_cli.shapes.shape import factors, gradients, offsets, weights

@@ -6,7 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.linalg import expm, polar
 
-from cramp_cli.numerics import tensor as t
+from cramp_cli.numerics import matrix as mat
+from cramp_cli.numerics import symmetric as sym
 from cramp_cli.numerics import vector as vec
 from cramp_cli.numerics.kernel import kernel
 
@@ -60,8 +61,8 @@ def test_vectors(dim):
     close(vec.times(flat(a), -2.0), -2.0 * a)
     close(vec.scaled(flat(A), 0.7), 0.7 * A)
     close(vec.dot(flat(a), flat(b)), a @ b)
-    close(t.add_outer(flat(a), flat(b), flat(A)), A + np.outer(a, b))
-    close(t.zero_matrix(flat(a)), np.zeros((dim, dim)))
+    close(mat.add_outer(flat(a), flat(b), flat(A)), A + np.outer(a, b))
+    close(mat.zero_matrix(flat(a)), np.zeros((dim, dim)))
 
 
 @pytest.mark.parametrize(("m", "n"), [(1, 1), (2, 2), (3, 3), (3, 9), (4, 2)])
@@ -75,8 +76,8 @@ def test_all_products_and_sums_run_fastest_over_the_second_tuple(m, n):
 def test_rows_of_arrays(dim):
     like, vectors, matrices = (0.0,) * dim, numbers(4, dim), numbers(4, dim * dim, seed=2)
     assert vec.vector(like, vectors, 2) == flat(vectors[2])
-    assert t.matrix((0.0,) * dim**2, matrices, 3) == flat(matrices[3])
-    assert t.symmetric(like, numbers(4, 6), 1) == flat(numbers(4, 6)[1, : 4 if dim == 2 else 6])
+    assert mat.matrix((0.0,) * dim**2, matrices, 3) == flat(matrices[3])
+    assert sym.symmetric(like, numbers(4, 6), 1) == flat(numbers(4, 6)[1, : 4 if dim == 2 else 6])
     assert vec.pick(tuple(map(flat, vectors.T)), 1) == flat(vectors[1])
 
 
@@ -84,14 +85,14 @@ def test_rows_of_arrays(dim):
 def test_symmetric_tensor_times_vector(dim):
     row, T = stresses(dim)
     g = numbers(dim)
-    close(t.apply(flat(g), flat(row)), (T[:dim, :dim] @ g))
+    close(sym.apply(flat(g), flat(row)), (T[:dim, :dim] @ g))
 
 
 @DIMENSIONS
 def test_matrices(dim):
     A, B = numbers(2, dim, dim)
-    close(t.product(flat(A), flat(B)), A @ B)
-    close(t.determinant(flat(A)), np.linalg.det(A))
+    close(mat.product(flat(A), flat(B)), A @ B)
+    close(mat.determinant(flat(A)), np.linalg.det(A))
 
 
 @DIMENSIONS
@@ -99,7 +100,7 @@ def test_increment_is_the_exponential_to_second_order(dim):
     """What is left out is bounded by |dU|^3 / 6 exp |dU|, the rest of the series."""
     dU = 1e-2 * numbers(dim, dim)
     size = np.linalg.norm(dU, 2)
-    wrong = np.linalg.norm(square(t.increment(flat(dU))) - expm(dU), 2)
+    wrong = np.linalg.norm(square(mat.increment(flat(dU))) - expm(dU), 2)
     assert 0.0 < wrong < size**3 / 6.0 * np.exp(size)
 
 
@@ -109,7 +110,7 @@ def test_strain_is_the_symmetric_part(dim):
     wanted = solid(0.5 * (dU + dU.T))
     if dim == 2:
         wanted[2, 2] = 0.4
-    close(square(t.solid_strain(flat(dU), 0.4)), wanted)
+    close(square(sym.solid_strain(flat(dU), 0.4)), wanted)
 
 
 @DIMENSIONS
@@ -119,7 +120,7 @@ def test_turn_rotates_stress_by_the_cayley_transform_of_the_spin(dim):
     row, T = stresses(dim)
     W = solid(0.5 * (dU - dU.T))
     R = np.linalg.solve(np.eye(3) - 0.5 * W, np.eye(3) + 0.5 * W)
-    close(square(t.turn(flat(dU), t.six(flat(dU), row, 0, 0))), R @ T @ R.T)
+    close(square(sym.turn(flat(dU), sym.six(flat(dU), row, 0, 0))), R @ T @ R.T)
 
 
 @DIMENSIONS
@@ -129,7 +130,7 @@ def test_turn_is_the_rotation_of_the_spin_to_second_order(dim):
     row, T = stresses(dim)
     W = solid(0.5 * (dU - dU.T))
     w = np.linalg.norm(W, 2)
-    wrong = square(t.turn(flat(dU), t.six(flat(dU), row, 0, 0))) - expm(W) @ T @ expm(W).T
+    wrong = square(sym.turn(flat(dU), sym.six(flat(dU), row, 0, 0))) - expm(W) @ T @ expm(W).T
     assert np.linalg.norm(wrong, 2) < 1.01 * w**3 / 6.0 * np.linalg.norm(T, 2)
 
 
@@ -140,7 +141,7 @@ def test_any_turn_keeps_the_principal_stresses(entries):
     for dim in (2, 3):
         row, T = stresses(dim)
         dU = tuple(entries[: dim * dim])
-        turned = square(t.turn(dU, t.six(dU, row, 0, 0)))
+        turned = square(sym.turn(dU, sym.six(dU, row, 0, 0)))
         np.testing.assert_allclose(
             np.linalg.eigvalsh(turned), np.linalg.eigvalsh(T), rtol=0.0, atol=30 * ROUND_OFF
         )
@@ -149,7 +150,7 @@ def test_any_turn_keeps_the_principal_stresses(entries):
 def test_work_is_the_mean_stress_times_the_strain():
     a, b, strain = (flat(numbers(6, seed=n)) for n in (1, 2, 3))
     wanted = 0.5 * np.sum((square(a) + square(b)) * square(strain))
-    assert t.work_of(a, b, strain) == pytest.approx(wanted, abs=8 * ROUND_OFF)
+    assert sym.work_of(a, b, strain) == pytest.approx(wanted, abs=8 * ROUND_OFF)
 
 
 @pytest.mark.parametrize("angle", [0.0, 0.4, 2.0, -3.0])
@@ -157,18 +158,22 @@ def test_rotation_of_a_deformation(angle):
     """The polar decomposition F = R U of scipy."""
     turned = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
     F = turned @ np.array([[1.3, 0.2], [0.2, 0.8]])
-    close(t.rotation_of(flat(F)), polar(F)[0])
+    close(mat.rotation_of(flat(F)), polar(F)[0])
 
 
 @kernel
 def _all_of_them(v, g, A, stress, strain, like):
     """Use every function that has a body for each dimension."""
-    T = t.symmetric(v, stress, 0)
-    u = vec.plus(vec.times(v, 0.5), vec.dot(v, g), t.apply(g, T))
-    B = t.add_outer(u, g, t.product(A, t.increment(A)))
-    turned = t.turn(A, t.six(A, stress, 0, 0))
-    work = t.work_of(turned, t.solid_strain(B, 0.1), strain)
-    return vec.scaled(vec.outer(u, B), t.determinant(B)), vec.outer_sum(g, t.zero_matrix(v)), work
+    T = sym.symmetric(v, stress, 0)
+    u = vec.plus(vec.times(v, 0.5), vec.dot(v, g), sym.apply(g, T))
+    B = mat.add_outer(u, g, mat.product(A, mat.increment(A)))
+    turned = sym.turn(A, sym.six(A, stress, 0, 0))
+    work = sym.work_of(turned, sym.solid_strain(B, 0.1), strain)
+    return (
+        vec.scaled(vec.outer(u, B), mat.determinant(B)),
+        vec.outer_sum(g, mat.zero_matrix(v)),
+        work,
+    )
 
 
 @DIMENSIONS
