@@ -51,7 +51,7 @@ def test_2_thirty_kills_at_random_moments_lose_nothing(here):
         words = ("run", "growing.yaml", "-o", run, *SETTINGS, *HOW)
         for _ in range(3):
             with begin(*words, "-t", dice.choice((1, 2, 4))) as process:
-                time.sleep(dice.uniform(0.1, 12.0))
+                time.sleep(dice.uniform(0.5, 6.0))  # a run takes some 5 s
                 alive = process.poll() is None
                 process.kill()
             kills += alive
