@@ -31,11 +31,13 @@ def doubts(model, site, row, moving: bool) -> list[str]:
     found = _of_law(particles, site)
     if moving:
         return [*found, "doubtful: J is negative"] if row["J"] < 0.0 else found
-    if "closed" in row["status"] or not near.any():
+    if not near.any():
         return found
     width, stiffness = model.lattice.width, site.hooke.stiffness
     energy = float(particles.work.mean()) + ROUND_OFF**2 * stiffness
     noise = NOISE * AROUND * width * energy
+    if "closed" in row["status"]:
+        return [*found, *_of_closed(row, stiffness, noise)]
     return [
         *found,
         *_contradictions(row, stiffness, noise),
@@ -56,6 +58,15 @@ def _contradictions(row, stiffness, noise) -> list[str]:
         if off > max(DIFFER * larger, noise):
             found.append(text.format(100.0 * off / larger))
     return found
+
+
+def _of_closed(row, stiffness, noise) -> list[str]:
+    """J of closed faces holds the work of friction besides that of K_II: it can not be below it."""
+    J, of_K = row["J_tip"], row["K_II"] ** 2 / stiffness
+    lack = of_K - J
+    if not lack > max(DIFFER * max(of_K, abs(J)), noise):
+        return []
+    return [f"doubtful: J is {J:.3g}, that of K_II alone {of_K:.3g} J/m^2"]
 
 
 def _of_spin(particles, site, row, width, noise) -> list[str]:
