@@ -7,7 +7,12 @@ from time import perf_counter
 import numpy as np
 
 from cramp_cli.cracks.account import growth_of_ends, path_rows
-from cramp_cli.cracks.cohesion import cohesive_energies, parted_points, tractions_now
+from cramp_cli.cracks.cohesion import (
+    cohesive_energies,
+    energy_of_pressures,
+    parted_points,
+    tractions_now,
+)
 from cramp_cli.cracks.fields import find_rows, list_cracks
 from cramp_cli.cracks.grow import blind_tips, grow
 from cramp_cli.cracks.tips import sample_tips
@@ -86,7 +91,8 @@ class Books:
         held, parting = cohesive_energies(model, state)
         taken = friction + plastic + damping + parting + fracture
         spent = kinetic + stored + held + taken
-        self.largest = max(self.largest, kinetic + stored + held, abs(work), taken)
+        of_load = energy_of_pressures(model, state)
+        self.largest = max(self.largest, kinetic + stored + held, abs(work), taken, of_load)
         self.error = (spent - self.start - work) / self.largest if self.largest else 0.0
         total = momentum(state.particles)
         return {
