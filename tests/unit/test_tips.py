@@ -320,7 +320,7 @@ def test_another_body_shrinks_the_domain_before_it_empties_it():
     (-0.004, 0.0, False),  # noise
 ])  # fmt: skip
 def test_closed_faces_have_no_less_than_the_J_of_K_II(J, K_II, doubtful):
-    """The solid around the tip holds 0.1 J/m^3, five cells of it 0.5 J/m^2, 1 % of that is noise."""
+    """The solid around the tip holds 0.1 J/m^3, in five cells 0.5 J/m^2, of which 1 % is noise."""
     crack = inner((0, 10), (15, 10), start="edge")
     model, state, scratch = build_deck(PLATE, cracks=[{"name": "c", **crack}])
     locate(model, state, scratch)
