@@ -1,6 +1,6 @@
 """The energies of a run, and whether they balance (docs/theory/energy.md)."""
 
-from cramp_cli.cracks.cohesion import cohesive_energies
+from cramp_cli.cracks.cohesion import cohesive_energies, energy_of_pressures
 from cramp_cli.state.failure import NumericalFailure
 from cramp_cli.state.measures import momentum, sum_energies
 
@@ -32,7 +32,8 @@ class Balance:
         held, parting = cohesive_energies(model, state)
         taken = friction + plastic + damping + parting + fracture
         spent = kinetic + stored + held + taken
-        self.largest = max(self.largest, kinetic + stored + held, abs(work), taken)
+        of_load = energy_of_pressures(model, state)
+        self.largest = max(self.largest, kinetic + stored + held, abs(work), taken, of_load)
         self.error = (spent - self.start - work) / self.largest if self.largest else 0.0
         total = momentum(state.particles)
         return {

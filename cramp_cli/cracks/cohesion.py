@@ -14,6 +14,7 @@ from cramp_cli.cohesive.pressure import Pressure
 from cramp_cli.cracks.faces import lay_out_faces, pull_points, spread, sum_stored
 from cramp_cli.cracks.fields import cut_of_points, what_surfaces_see
 from cramp_cli.cracks.view import make_seen
+from cramp_cli.materials.law import confined_modulus
 
 
 @dataclass(frozen=True)
@@ -67,6 +68,22 @@ def book_pressures(model, state, scratch) -> None:
     work = np.sum(traction * (paths.above - paths.below - gap), axis=1)[pressed]
     length = lay_out_faces(paths).length[pressed]
     state.books.external[0] -= float(work @ length) * model.geometry.thickness
+
+
+def energy_of_pressures(model, state) -> float:
+    """Return what pressures of now would put into the solid if nothing held the faces (J).
+
+    f^2/2M per thickness, f the force on the faces of a crack (N/m), M the largest modulus of
+    uniaxial strain: about what they have done to a crack that is open, and far more than the
+    trembling of faces that they press together.
+    """
+    if model.cohesion is None or not model.cohesion.presses(state.paths).any():
+        return 0.0
+    pressed, faces = model.cohesion.presses(state.paths), lay_out_faces(state.paths)
+    force = np.hypot(*tractions_now(model, state).T) * faces.length
+    of_crack = np.bincount(faces.crack[pressed], force[pressed])
+    modulus = max(confined_modulus(b.law) for b in model.blocks if b.law is not None)
+    return model.geometry.thickness * float(of_crack @ of_crack) / (2.0 * modulus)
 
 
 def tractions_now(model, state) -> np.ndarray:

@@ -8,6 +8,7 @@ from math import isnan, pi, sqrt
 
 import numpy as np
 
+from cramp_cli.materials.geometry import Axisymmetric
 from cramp_cli.materials.law import confined_modulus
 from cramp_cli.state.measures import from_history
 from cramp_cli.state.particles import DISSIPATED, Particles
@@ -17,6 +18,7 @@ DIFFER = 0.2  # share by which two numbers for one J may differ
 NOISE = 0.01  # share of the strain energy around the tip that is no J
 ROUND_OFF = 1e-12  # a strain that is none
 TAKEN = 0.01  # share of the work around the tip that plastic and viscous strain may have taken
+PURE = 0.05  # K of one mode as a share of the other's up to which a ring has one mode alone
 TURNING = 0.2  # share of K that the turning of the solid may make by itself
 
 
@@ -28,14 +30,16 @@ def doubts(model, site, row, moving: bool) -> list[str]:
     origin = site.cloud.particles.origin
     near = np.hypot(*(origin - site.frame.origin).T) < AROUND * model.lattice.width
     particles = Particles(*(array[near] for array in site.cloud.particles))
-    found = _of_law(particles, site)
+    found = [*_of_law(particles, site), *_of_rings(model, site, row)]
     if moving:
         return [*found, "doubtful: J is negative"] if row["J"] < 0.0 else found
-    if "closed" in row["status"] or not near.any():
+    if not near.any():
         return found
     width, stiffness = model.lattice.width, site.hooke.stiffness
     energy = float(particles.work.mean()) + ROUND_OFF**2 * stiffness
     noise = NOISE * AROUND * width * energy
+    if "closed" in row["status"]:
+        return [*found, *_of_closed(row, stiffness, noise)]
     return [
         *found,
         *_contradictions(row, stiffness, noise),
@@ -58,6 +62,15 @@ def _contradictions(row, stiffness, noise) -> list[str]:
     return found
 
 
+def _of_closed(row, stiffness, noise) -> list[str]:
+    """J of closed faces holds the work of friction besides that of K_II: it can not be below it."""
+    J, of_K = row["J_tip"], row["K_II"] ** 2 / stiffness
+    lack = of_K - J
+    if not lack > max(DIFFER * max(of_K, abs(J)), noise):
+        return []
+    return [f"doubtful: J is {J:.3g}, that of K_II alone {of_K:.3g} J/m^2"]
+
+
 def _of_spin(particles, site, row, width, noise) -> list[str]:
     """A node at a border has the velocity of a place inside the solid, half a cell away.
 
@@ -72,6 +85,15 @@ def _of_spin(particles, site, row, width, noise) -> list[str]:
     if not made > TURNING * K or made * made / site.hooke.stiffness <= noise:
         return []
     return [f"doubtful: the solid turns by {spin:.3g} rad/s, which alone may make K = {made:.2g}"]
+
+
+def _of_rings(model, site, row) -> list[str]:
+    """The auxiliary fields are those of a plane: with both modes their ratio is off in a ring."""
+    K = sorted((abs(row["K_I"]), abs(row["K_II"])))
+    if not (isinstance(model.geometry, Axisymmetric) and K[0] > PURE * K[1]):
+        return []
+    off = 100.0 * AROUND * model.lattice.width / site.frame.origin[0]
+    return [f"doubtful: K_II/K_I is off by about {off:.0f} % where a ring has both modes; J stands"]
 
 
 def _of_law(particles, site) -> list[str]:

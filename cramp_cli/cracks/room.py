@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from cramp_cli.state.particles import is_deleted
 from cramp_cli.state.paths import TIP
 
 BEND = 0.17  # a crack that turns by more than this (rad) ends the domain
@@ -29,6 +30,21 @@ def find_room(model, paths, tip, here, bend=BEND) -> tuple[float, str]:
         if len(places) and crack != tip.crack:
             found.append((float(np.sqrt(np.min(np.sum((places - here) ** 2, axis=1)))), what))
     return min(found)
+
+
+def nearest_body(model, state, tip) -> tuple[float, str]:
+    """Return the distance (m) from a tip to the nearest particle of a body that may touch its own.
+
+    What another body does to the surface is a load within the domain, however little of the domain
+    is empty. Taken in the bodies of now: where they were at the start tells nothing of contact.
+    """
+    if model.between_bodies is None:
+        return np.inf, ""
+    particles, here = state.particles, state.paths.point[tip.points[0]]
+    other = model.groups.of_body[particles.body] != model.groups.of_crack[tip.crack]
+    other &= ~is_deleted(particles)
+    away = np.sum((particles.position[other] - here) ** 2, axis=1)
+    return float(np.sqrt(away.min(initial=np.inf))), "another body"
 
 
 def _other_cracks(model, paths, tip, here):

@@ -21,7 +21,7 @@ from cramp_cli.cracks.domain_integral import Hooke, TipFrame, inner_radius, mate
 from cramp_cli.cracks.doubts import doubts
 from cramp_cli.cracks.face_terms import drawn, rubbed_off, zone_energy
 from cramp_cli.cracks.intensity import K_from_J, open_and_slide, opening_near_tip
-from cramp_cli.cracks.room import find_room
+from cramp_cli.cracks.room import find_room, nearest_body
 from cramp_cli.materials.geometry import Axisymmetric, depth
 from cramp_cli.state.growth import BLEND, HELD, KINK, MIXED
 from cramp_cli.state.paths import TIP
@@ -237,7 +237,9 @@ def _measure_domain(model, state, scratch, tip, site):
     wanted, least = radii[0] if radii else USUAL * width, (1.0 - 1e-9) * SMALLEST * width
     if wanted < least:
         return {}, f"invalid: the radius is below {SMALLEST:g} cells"
-    room, what = find_room(model, paths, tip, site.frame.origin)
+    room, what = min(
+        find_room(model, paths, tip, site.frame.origin), nearest_body(model, state, tip)
+    )
     radius, remark = (room, what) if room < wanted else (wanted, "")
     measured, radius, remark = _fitting(model, state, site, tip, radius, least, remark)
     if measured is None or (radii and remark):

@@ -104,3 +104,18 @@ def test_the_advice_is_that_for_the_update(update, words):
 def test_the_advice_for_an_unstable_pair_of_schemes():
     with pytest.raises(NumericalFailure, match=r"usl- may be unstable; use usl\+"):
         judged(0.9, update="fmpm(2)", strain="usl-")
+
+
+def test_a_pressure_that_keeps_a_crack_closed_is_no_failure():
+    """Next to nothing moves, so next to no energy is all there is; the load itself is the scale."""
+    pressed = {"name": "c", "points": [[0, 3], [4, 3]], "start": "edge"}
+    pressed["traction"] = {"law": "pressure", "value": -1e-3}
+    model, state, scratch = build_deck(BLOCK, cracks=[pressed])
+    books = Balance(state, read(BLOCK).solver)
+    for _ in range(SETTLED + 10):
+        advance(model, state, scratch, 1)
+        row = books.row(model, state)
+    moving = row["kinetic_energy"] + row["strain_energy"]
+    assert books.largest == pytest.approx((4 * 1e-3) ** 2 / (2 * 3))
+    assert moving < 0.01 * books.largest
+    assert abs(books.error) < 0.01

@@ -6,6 +6,7 @@ from support import advance, build_deck, locate
 
 from cramp_cli.cracks.cloud import cloud_around
 from cramp_cli.cracks.domain import hooke_of
+from cramp_cli.cracks.doubts import doubts
 from cramp_cli.cracks.tips import (
     block_at,
     crack_length,
@@ -244,7 +245,9 @@ def test_faces_that_are_pressed_together_are_closed():
     """Contact leaves no K_I below zero, whatever the nodes say at this moment."""
     law = {"law": "frictional", "mu": 0.3}
     row = pulled(1, -8, 8, mirror=False, pull=-1e-3, law=law, steps=30)
-    assert (row["K_I"], row["status"]) == (0.0, "closed")
+    closed, *doubt = row["status"].split("; ")
+    assert (row["K_I"], closed) == (0.0, "closed")
+    assert [text.startswith("doubtful: J is -") for text in doubt] == [True]  # touched while apart
 
 
 def test_the_end_of_a_symmetry_plane_is_an_obstacle():
@@ -292,3 +295,37 @@ def test_a_tip_close_to_another_material_is_corrected():
     assert row["status"] == "corrected: the domain holds another material"
     row = sampled(on, bodies=pieces("soft", "hard"), fracture=fracture)["c0", "end"]
     assert row["status"].startswith("invalid: another material")
+
+
+def test_another_body_shrinks_the_domain_before_it_empties_it():
+    """The disk takes next to nothing off the domain, but what it does to the plate is a load in it.
+
+    As one solid with the plate it is none.
+    """
+    disk = {"name": "disk", "material": "soft"}
+    disk["shape"] = {"type": "disk", "center": [15, 16], "radius": 2}
+    plate = {"name": "b", "material": "soft", "shape": rectangle(0, 0, 30, 20)}
+    crack, more = inner((0, 10), (15, 10), start="edge"), {"bodies": [plate, disk]}
+    more["fracture"] = {"methods": ["domain"]}
+    assert sampled(crack, **more)["c0", "end"]["status"] == "ok"
+    more["contact"] = {"bodies": {"law": "frictional"}}
+    row = sampled(crack, **more)["c0", "end"]
+    assert row["status"] == "shrunk: another body within 5 cells"
+
+
+@pytest.mark.parametrize(("J", "K_II", "doubtful"), [
+    (-0.10, 0.0, True),  # energy flows out of the tip
+    (0.10, 0.6, True),  # less than that of K_II, 0.18
+    (0.10, 0.3, False),  # with the work of friction
+    (-0.004, 0.0, False),  # noise
+])  # fmt: skip
+def test_closed_faces_have_no_less_than_the_J_of_K_II(J, K_II, doubtful):
+    """The solid around the tip holds 0.1 J/m^3, in five cells 0.5 J/m^2, of which 1 % is noise."""
+    crack = inner((0, 10), (15, 10), start="edge")
+    model, state, scratch = build_deck(PLATE, cracks=[{"name": "c", **crack}])
+    locate(model, state, scratch)
+    state.particles.work[:] = 0.1
+    (tip,) = tips_of(state.paths)
+    site = site_of(model, state, scratch, tip)
+    row = {"J": J, "J_tip": J, "K_I": 0.0, "K_II": K_II, "status": "closed"}
+    assert bool(doubts(model, site, row, False)) is doubtful
