@@ -4,6 +4,7 @@ import numpy as np
 
 from cramp_cli.cracks.cloud import list_origins
 from cramp_cli.cracks.crossing import make_segments
+from cramp_cli.cracks.view import make_seen
 from cramp_cli.numerics.team import Team
 from cramp_cli.shapes.shape import offsets
 from cramp_cli.state.grid import make_grid
@@ -28,6 +29,7 @@ def make_scratch(model, state, threads: int = 1) -> Scratch:
         team=Team(threads, n),
         report=np.zeros((len(model.blocks), bands, 3), dtype=np.int64),
         per_band=np.zeros(bands),
+        seen=(make_seen(), make_seen()),
         origins=list_origins(lattice, state.particles),
     )
     share_particles(state, scratch)

@@ -12,6 +12,7 @@ from cramp_cli.cracks.fields import find_rows, list_cracks
 from cramp_cli.cracks.grow import blind_tips, grow
 from cramp_cli.cracks.tips import sample_tips
 from cramp_cli.energy_balance import Balance
+from cramp_cli.numerics.call import records_of_one_run
 from cramp_cli.output.summary import Summary
 from cramp_cli.scratch import make_scratch
 from cramp_cli.state.failure import NumericalFailure
@@ -49,7 +50,7 @@ def simulate(
     begin, first = perf_counter(), 0.0  # the first step may compile: no measure of the others
     reporter.start(model.end_time, deck.title or "run", _facts(model, state))
     run = _Run(deck, model, state, outputs, reporter, threads, keeper)
-    with run.dumped_if_it_fails():
+    with run.dumped_if_it_fails(), records_of_one_run():
         if remembered:
             run.recall(remembered)
         else:

@@ -24,6 +24,7 @@ from cramp_cli.shapes.shape import offsets, weights
 from cramp_cli.state.bands import band_axis, runs_between
 
 SEEN = 3  # rows of cells within which a particle may see a node
+NEARLY = 1e-5  # cells by which boxes are widened before it is asked whether lines cross
 FULL = 0.75  # a contour node that sees less of a full cell lies at or beyond the edge of the body
 
 
@@ -172,20 +173,24 @@ class _Walk:
             sum_fields(sums, state.particles, scratch.stencil, b.shape, *place, lo, hi)
         self.cell = model.lattice.width**2 * model.geometry.thickness
         self.volume, self.sums = sums[:, 10], sums[:, :10]
-        self.segments = self._segments_near()
+        self.segments = self._segments_on_way()
         self.crossings = 0
         self.other_cracks = 0
         self.other_bodies = 0
         self.empty = 0
 
-    def _segments_near(self):
-        """Return the segments of all cracks that may meet the contour."""
+    def _segments_on_way(self):
+        """Return the segments that may meet the contour: number, lower and upper corner."""
         box, lattice, used = self.box, self.model.lattice, int(self.scratch.segments.used[0])
         ends = self.scratch.segments.real[:used].reshape(used, 2, 2)
-        corner = np.array([[box.i - 1, box.j - 1], [box.i + box.wide, box.j + box.high]])
+        low, high = ends.min(axis=1), ends.max(axis=1)
+        corner = np.array([[box.i, box.j], [box.i + box.wide - 1, box.j + box.high - 1]])
         lower, upper = lattice.lower + lattice.width * corner
-        near = (ends.max(axis=1) >= lower) & (ends.min(axis=1) <= upper)
-        return np.flatnonzero(near.all(axis=1)).tolist()
+        hair = NEARLY * lattice.width
+        outside = ((high < lower - hair) | (low > upper + hair)).any(axis=1)
+        within = ((low > lower + hair) & (high < upper - hair)).all(axis=1)
+        on_way = np.flatnonzero(~outside & ~within)
+        return [(int(s), low[s].tolist(), high[s].tolist()) for s in on_way]
 
     def line_integral(self):
         """Return the line integrals of q_x and q_y, counter-clockwise."""
@@ -274,8 +279,13 @@ class _Walk:
         lattice, segments = self.model.lattice, self.scratch.segments
         p = [low + lattice.width * c for low, c in zip(lattice.lower, here, strict=True)]
         n = [low + lattice.width * c for low, c in zip(lattice.lower, there, strict=True)]
-        found = []
-        for s in self.segments:
+        found, hair = [], NEARLY * lattice.width
+        (x0, x1), (y0, y1) = sorted((p[0], n[0])), sorted((p[1], n[1]))
+        for s, low, high in self.segments:
+            if low[0] > x1 + hair or high[0] < x0 - hair:
+                continue
+            if low[1] > y1 + hair or high[1] < y0 - hair:
+                continue
             if crosses(segments.real, segments.down, s, *p, *n, ON_CRACK * lattice.width):
                 if segments.crack[s] == self.crack:
                     found.append(_fraction(p, n, segments.real[s]))

@@ -28,7 +28,6 @@ class Segments(NamedTuple):
         np.ndarray
     )  # (segments, 4) a hair below the crack at both ends, the same for neighbours (m)
     crack: np.ndarray  # (segments,) crack of each segment, ascending
-    seen: np.ndarray  # (segments,) on which side of each segment a place lies, `note_sides`
     head: np.ndarray  # (nodes,) first entry of the list of a cell (by its lowest node), or -1
     item: np.ndarray  # (entries,) segment of an entry
     next: np.ndarray  # (entries,) next entry of the same cell, or -1; segments ascend
@@ -43,7 +42,6 @@ def make_segments(node_count: int, segment_count: int, entries: int) -> Segments
         real=np.zeros((segment_count, 4)),
         down=np.zeros((segment_count, 4)),
         crack=np.zeros(segment_count, dtype=np.int64),
-        seen=np.zeros(segment_count),
         head=np.full(node_count, -1, dtype=np.int64),
         item=np.zeros(entries, dtype=np.int64),
         next=np.zeros(entries, dtype=np.int64),
@@ -129,36 +127,32 @@ def reaches(ends, s, box):
 
 
 @inlined_kernel
-def note_sides(segments, cell, x, y, tolerance):
-    """Note on which side of the segments about a cell a place lies, as 1, -1 or 0 for on its line.
+def hidden_nodes(segments, cell, x, y, first_node, width, side, tolerance):
+    """Return which nodes of a particle a crack may hide from it, bit k for node k.
 
-    Asked once for a particle, it settles most of its lines to nodes (`sees_past_all`).
+    A node is free if it lies on the particle's side of the lines of all segments about the cell,
+    and neither lies on one of them nor within a hair. Most nodes are, and need no more questions.
+
+    first_node: place of the lowest of its side x side nodes (m)
     """
     ends, entry = segments.ends, segments.head[cell]
+    nx, ny = first_node
+    hidden = 0
     while entry >= 0:
         s = segments.item[entry]
-        segments.seen[s] = side_of_line(ends, s, x, y, tolerance)
+        ax, ay, bx, by = ends[s, 0], ends[s, 1], ends[s, 2], ends[s, 3]
+        limit = 2.0 * HAIR / ON_CRACK * tolerance * (abs(bx - ax) + abs(by - ay))
+        here = double_area(ax, ay, bx, by, x, y)
+        if abs(here) <= limit:
+            return (1 << (side * side)) - 1
+        sign = 1.0 if here > 0.0 else -1.0
+        clear = sign * double_area(ax, ay, bx, by, nx, ny) - limit  # negative for a hidden node
+        right, up = -sign * (by - ay) * width, sign * (bx - ax) * width
+        if clear + (side - 1) * (min(right, 0.0) + min(up, 0.0)) <= 0.0:
+            for k in range(side * side):
+                hidden |= int(clear + (k % side) * right + (k // side) * up <= 0.0) << k
         entry = segments.next[entry]
-
-
-@inlined_kernel
-def sees_past_all(segments, cell, x, y, tolerance):
-    """Return whether a place lies on the noted side of all segments about a cell (`note_sides`)."""
-    ends, entry = segments.ends, segments.head[cell]
-    while entry >= 0:
-        s = segments.item[entry]
-        if side_of_line(ends, s, x, y, tolerance) * segments.seen[s] <= 0.0:
-            return False
-        entry = segments.next[entry]
-    return True
-
-
-@inlined_kernel
-def side_of_line(ends, s, x, y, tolerance):
-    """Return 1 above the line of a segment, -1 below it, 0 on it, within the limit of `crosses`."""
-    ax, ay, bx, by = ends[s, 0], ends[s, 1], ends[s, 2], ends[s, 3]
-    area, limit = double_area(ax, ay, bx, by, x, y), tolerance * (abs(bx - ax) + abs(by - ay))
-    return (1.0 if area > limit else 0.0) - (1.0 if area < -limit else 0.0)
+    return hidden
 
 
 @inlined_kernel
