@@ -187,9 +187,9 @@ def between_particles(model, cloud, frame, end) -> TipFrame:
     ]
     above, below = (sum(side) / (0.5 * length * thickness) for side in zip(*sides, strict=True))
     if abs(above + below - length) > LEAK * length:
-        return frame
+        return frame._replace(line=line)
     off, (ex, ey), (x, y) = 0.5 * (below - above), frame.before, frame.origin
-    return frame._replace(origin=(x - off * ey, y + off * ex))
+    return frame._replace(origin=(x - off * ey, y + off * ex), line=line - off)
 
 
 def block_at(model, cloud, place):
