@@ -28,9 +28,9 @@ class Balance:
         books = state.books
         damping, friction = float(books.damping[0]), float(books.friction[0])
         fracture = float(books.fracture[0])
-        work = float(books.external[0])
+        absorbed, work = float(books.absorbed[0]), float(books.external[0])
         held, parting = cohesive_energies(model, state)
-        taken = friction + plastic + damping + parting + fracture
+        taken = friction + plastic + damping + absorbed + parting + fracture
         spent = kinetic + stored + held + taken
         of_load = energy_of_pressures(model, state)
         self.largest = max(self.largest, kinetic + stored + held, abs(work), taken, of_load)
@@ -48,6 +48,7 @@ class Balance:
             "friction_energy": friction,
             "plastic_energy": plastic,
             "damping_energy": damping,
+            "absorbed_energy": absorbed,
             "external_work": work,
             "energy_error": self.error,
             "momentum_x": float(total[0]),

@@ -5,7 +5,9 @@ which rows, is in the module it comes from.
 """
 
 from cramp_cli.boundary.conditions import (
+    absorb_waves,
     add_loads,
+    book_absorbed,
     book_tractions,
     hold_after_contact,
     hold_forces,
@@ -63,6 +65,7 @@ def step(model, state, scratch, watch) -> None:
         add_loads(model, scratch, time)
         draw_faces(model, state, scratch)
         reflect_forces(conditions, scratch, state)
+        absorb_waves(model, scratch, state)
 
     with watch("6 equation of motion in every velocity field"):
         hold_forces(conditions, scratch, state, time, dt)
@@ -95,6 +98,7 @@ def step(model, state, scratch, watch) -> None:
             repeat_images(conditions, scratch, grid.momentum)
             hold_momenta(conditions, scratch, time)
         book_tractions(model, scratch, state, time, 0.5 * dt)
+        book_absorbed(model, scratch, state)
         if model.scheme.after:
             find_strain_velocity(model, state, scratch)
             sums.strain(model, state, scratch, model.scheme.after)

@@ -5,13 +5,19 @@ from typing import Any
 
 import numpy as np
 
+from cramp_cli.boundary.absorbing import (
+    Dashpots,
+    add_drag,
+    drag,
+    drag_power,
+    make_dashpots,
+)
 from cramp_cli.boundary.beyond import Beyond, follow_force, follow_increment, follow_momentum
 from cramp_cli.boundary.symmetry import (
     Mirror,
     double_on,
     find_open_nodes,
     reflect,
-    reflect_mass,
     reflect_on,
     stop_normal,
     sum_outside,
@@ -75,6 +81,15 @@ class Traction:
 
 
 @dataclass(frozen=True)
+class Absorber:
+    """Dashpots on particle faces of one block, and the boundary that books their reaction."""
+
+    faces: Faces  # their `force` is the impedance times the area, N s/m
+    shape: Any
+    boundary: int
+
+
+@dataclass(frozen=True)
 class Gravity:
     """A body force per mass: acceleration times curve."""
 
@@ -92,6 +107,7 @@ class Conditions:
     mirrors: tuple = ()
     forces: tuple = ()
     tractions: tuple = ()
+    absorbers: tuple = ()
     gravity: tuple = ()
 
     @property
@@ -174,9 +190,7 @@ def reflect_mass_and_momentum(conditions, scratch, time) -> None:
     grid, rows = scratch.grid, scratch.rows
     for plane, free in zip(conditions.mirrors, scratch.free, strict=True):
         m = plane.mirror
-        reflect_mass(grid.mass, rows, m.crack, m.outside, m.inside)
-        double_on(grid.mass.reshape(-1, 1), rows, m.crack, m.on, free)
-        reflect_on(grid.mass.reshape(-1, 1), rows, -1, m.crack, m.on, free, True)
+        _reflect_even(m, free, rows, grid.mass.reshape(-1, 1))
         _reflect(m, free, rows, grid.momentum, add=True)
     for hold, held in zip(conditions.holds, scratch.held, strict=True):
         if hold.beyond is not None:
@@ -216,6 +230,13 @@ def _reflect(m: Mirror, free, rows, field, *, add: bool) -> float:
     if add:
         double_on(field, rows, m.crack, m.on, free)
     return taken
+
+
+def _reflect_even(m: Mirror, free, rows, field) -> None:
+    """Give a sum (rows, k) that has no direction on both sides of a plane to each other."""
+    reflect(field, rows, -1, m.crack, m.outside, m.inside, True)
+    double_on(field, rows, m.crack, m.on, free)
+    reflect_on(field, rows, -1, m.crack, m.on, free, True)
 
 
 def hold_momenta(conditions, scratch, time) -> None:
@@ -267,6 +288,41 @@ def book_tractions(model, scratch, state, time, duration) -> None:
         state.books.external[0] += t.curve.value(time) * power * duration
 
 
+def absorb_waves(model, scratch, state) -> None:
+    """Let the dashpots of absorbing boundaries act against the motion that the forces give."""
+    conditions, grid, rows = model.conditions, scratch.grid, scratch.rows
+    if not conditions.absorbers:
+        return
+    dashpots, count = _dashpots(model, scratch), scratch.row_count
+    drag(grid, dashpots, count, model.strides, model.dt)
+    for absorber, impedance in zip(conditions.absorbers, dashpots.each, strict=True):
+        reaction = state.reactions[absorber.boundary]
+        add_drag(reaction, impedance, dashpots.velocity, rows, scratch.share, count)
+    book_absorbed(model, scratch, state)
+
+
+def _dashpots(model, scratch) -> Dashpots:
+    """Return the dashpots of this step by rows."""
+    conditions, rows = model.conditions, scratch.rows
+    dashpots = make_dashpots(scratch.dashpots, scratch.grid.force, len(conditions.absorbers))
+    for one, impedance in zip(conditions.absorbers, dashpots.each, strict=True):
+        places = (scratch.index, one.faces, one.shape, model.strides)
+        add_traction(impedance, scratch.stencil, *places, 1.0)
+        for plane, free in zip(conditions.mirrors, scratch.free, strict=True):
+            _reflect_even(plane.mirror, free, rows, impedance)
+        dashpots.total[:] += impedance
+    scratch.dashpots = dashpots
+    return dashpots
+
+
+def book_absorbed(model, scratch, state) -> None:
+    """Book what dashpots take over half a step, as `book_tractions` does what tractions do."""
+    if model.conditions.absorbers:
+        where = (scratch.rows, scratch.share, scratch.row_count, model.strides)
+        power = drag_power(scratch.grid, scratch.dashpots, *where)
+        state.books.absorbed[0] += 0.5 * model.dt * power
+
+
 def hold_increment(conditions, scratch, field) -> None:
     """Keep held components out of higher orders of the grid velocity."""
     for hold, (rows, count) in zip(conditions.holds, scratch.held, strict=True):
@@ -284,6 +340,6 @@ def add_loads(model, scratch, time) -> None:
         sum_particle_force(grid, chosen, load, scratch.stencil, f.shape, strides, factor)
     for t in conditions.tractions:
         places = (scratch.index, t.faces, t.shape, strides)
-        add_traction(grid, scratch.stencil, *places, t.curve.value(time))
+        add_traction(grid.force, scratch.stencil, *places, t.curve.value(time))
     if conditions.gravity:
         add_gravity(grid, scratch.row_count, conditions.body_force(time, len(strides)))

@@ -64,7 +64,7 @@ def image_on_plane(rows, row, crack):
 def reflect(field, rows, axis, crack, outside, inside, add):
     """Make the rows outside images of those inside; with `add`, sum both sides first.
 
-    field: (rows, dim), a vector per row; axis: normal of the plane
+    field: (rows, k), a vector per row; axis: component that changes its sign, -1 for none
     """
     nodes = len(rows.first)
     for i in range(len(outside)):
@@ -113,20 +113,6 @@ def double_on(field, rows, crack, on, free):
             if not free[i] and not (beyond and crack >= 0):
                 for d in range(field.shape[1]):
                     field[row, d] *= 2.0
-            row = rows.first[row] if row < nodes else rows.next[row - nodes]
-
-
-@kernel
-def reflect_mass(mass, rows, crack, outside, inside):
-    """Add the mass of rows outside to their images and copy it back."""
-    nodes = len(rows.first)
-    for i in range(len(outside)):
-        row = outside[i]
-        while row >= 0:
-            image = image_row(rows, nodes, row, inside[i], crack)
-            if image >= 0:
-                mass[image] += mass[row]
-                mass[row] = mass[image]
             row = rows.first[row] if row < nodes else rows.next[row - nodes]
 
 

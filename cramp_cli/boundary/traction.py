@@ -28,10 +28,11 @@ class Faces(NamedTuple):
 
 
 @kernel
-def add_traction(grid, stencil, index, faces, shape, strides, factor):
-    """Add factor times the face forces to the grid; index: where the particle of a number is.
+def add_traction(field, stencil, index, faces, shape, strides, factor):
+    """Add factor times the face forces to a field (rows, dim) of the grid.
 
-    The corner of a particle lies among the nodes of the particle, so its rows are the particle's.
+    index: where the particle of a number is. The corner of a particle lies among the nodes of the
+    particle, so its rows are the particle's.
     """
     particle, corner, load = faces.particle, faces.corner, faces.force
     base, local, near = stencil.base, stencil.local, stencil.near
@@ -46,10 +47,10 @@ def add_traction(grid, stencil, index, faces, shape, strides, factor):
         first, line = base[p], near[p]
         if line < 0:
             for k in range(len(steps)):
-                add(grid.force, first + steps[k], S[k], f)
+                add(field, first + steps[k], S[k], f)
         else:
             for e in range(entries[line]):
-                add(grid.force, table[line, e], share[line, e] * S[which[line, e]], f)
+                add(field, table[line, e], share[line, e] * S[which[line, e]], f)
 
 
 @kernel

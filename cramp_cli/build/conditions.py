@@ -4,6 +4,7 @@ import numpy as np
 
 from cramp_cli.boundary.beyond import Beyond
 from cramp_cli.boundary.conditions import (
+    Absorber,
     Conditions,
     Gravity,
     Hold,
@@ -12,13 +13,12 @@ from cramp_cli.boundary.conditions import (
     Traction,
 )
 from cramp_cli.boundary.symmetry import Mirror
-from cramp_cli.boundary.traction import Faces
 from cramp_cli.boundary.velocity import Held
+from cramp_cli.build.faces import Surface, impedances, span
 from cramp_cli.cracks.room import Obstacle
 from cramp_cli.deck.deck import DeckError
 from cramp_cli.deck.where import AXES
 from cramp_cli.materials.geometry import depth
-from cramp_cli.shapes.linear import Linear
 from cramp_cli.shapes.shape import is_ring, reaches_beyond
 
 ON_PLANE = 1e-6  # cells
@@ -47,6 +47,7 @@ def build_conditions(deck, lattice, geometry, particles, blocks, paths) -> tuple
         mirrors=tuple(builder.mirrors),
         forces=tuple(builder.forces),
         tractions=tuple(builder.tractions),
+        absorbers=tuple(builder.absorbers),
         gravity=tuple(builder.gravity),
     )
     return conditions, tuple(builder.obstacles)
@@ -73,7 +74,8 @@ class _Builder:
         self.nodes = lattice.node_positions()
         self.tolerance = ON_PLANE * lattice.width
         self.names, self.holds, self.mirrors = [], [], []
-        self.forces, self.tractions, self.gravity = [], [], []
+        self.surface = Surface(deck, lattice, geometry, particles, blocks)
+        self.forces, self.tractions, self.absorbers, self.gravity = [], [], [], []
         self.obstacles, self.mistakes = [], []
 
     def wrong(self, path, message):
@@ -85,13 +87,15 @@ class _Builder:
         self.names.append(boundary.name or f"boundary_{number + 1}")
         if boundary.symmetry:
             self._add_mirror(number, boundary)
+        elif boundary.absorbing:
+            self._add_absorbers(number, boundary)
         else:
             self._add_holds(number, boundary)
 
     def _add_holds(self, number, boundary):
         where, width = boundary.where, self.lattice.width
-        lower = np.array([_span(where, d, self.tolerance)[0] for d in range(2)])
-        upper = np.array([_span(where, d, self.tolerance)[1] for d in range(2)])
+        lower = np.array([span(where, d, self.tolerance)[0] for d in range(2)])
+        upper = np.array([span(where, d, self.tolerance)[1] for d in range(2)])
         planes = {axis for axis, _ in where.planes}
         wide = np.array([0.0 if d in planes else REACH * width for d in range(2)])
         near = np.all((self.nodes >= lower - wide) & (self.nodes <= upper + wide), axis=1)
@@ -136,7 +140,7 @@ class _Builder:
             self.wrong(("boundary", number, "where"), message)
             return
         other = 1 - axis
-        low, high = _span(boundary.where, other, self.tolerance)
+        low, high = span(boundary.where, other, self.tolerance)
         plane = np.flatnonzero(np.abs(self.nodes[:, axis] - at) <= self.tolerance)
         on = plane[(self.nodes[plane, other] >= low) & (self.nodes[plane, other] <= high)]
         step = side * lattice.strides[axis]
@@ -146,6 +150,26 @@ class _Builder:
         self._not_moved(number, axis, on)
         self._spoil(self.nodes[on], "a symmetry plane", crack)
         self._spoil(self.nodes[np.setdiff1d(plane, on)], "the end of a symmetry plane")
+
+    def _add_absorbers(self, number, boundary):
+        """Put dashpots on all faces of bodies that lie on the plane."""
+        path, (axis, at) = ("boundary", number, "where"), boundary.where.planes[0]
+        candidates = self.surface.all_particles(boundary.where)
+        faces = list(self.surface.faces_at(candidates, axis, at))
+        if not faces:
+            self.wrong(path, "no face of a particle lies there")
+        elif len({one for _, _, sign in faces for one in sign.tolist()}) > 1:
+            self.wrong(path, "lies inside a body; give its face")
+        for block, mine, sign in faces:
+            along, across = impedances(block, self.geometry)
+            if np.isnan(along):
+                what = f"the waves of '{block.material}' have no speed of their own"
+                self.wrong(path, f"{what}; give the face a rim of an isotropic elastic material")
+            impedance = np.full(2, across)
+            impedance[axis] = along
+            corners = self.surface.corners(block, mine, axis, sign[0], impedance)
+            self.absorbers.append(Absorber(corners, block.shape, number))
+        self._spoil(self.particles.origin[candidates], "an absorbing boundary")
 
     def add_axis(self):
         """Make the axis of rings a symmetry plane; a body that stays away from it needs none."""
@@ -216,7 +240,7 @@ class _Builder:
 
     def add_force(self, number, load):
         """Add forces on the particles of a body."""
-        chosen = self._particles_of(load, load.where, touching=True)
+        chosen = self._particles_of(load)
         if not len(chosen):
             self.wrong(("loads", number, "where"), f"holds no particle of body {load.body}")
             return
@@ -234,65 +258,31 @@ class _Builder:
     def add_traction(self, number, load):
         """Add tractions on the faces of a body that lie on a plane."""
         axis, at = load.where.planes[0]
-        candidates = self._particles_of(load, load.where, touching=True)
-        found = 0
-        for block in self.blocks:
-            mine = candidates[(candidates >= block.lo) & (candidates < block.hi)]
-            offset = at - self.particles.origin[mine, axis]
-            half = block.shape.half[axis] * self.lattice.width
-            on_face = np.abs(np.abs(offset) - half) <= 0.1 * half
-            mine, sign = mine[on_face], np.sign(offset[on_face])
-            if len(set(sign.tolist())) > 1:
-                message = f"lies inside body {load.body}; give its face"
-                self.wrong(("loads", number, "where"), message)
-                return
-            if len(mine):
-                found += len(mine)
-                faces = self._faces(mine, block, axis, sign[0], load)
-                self.tractions.append(Traction(faces, block.shape, load.in_time))
-        if not found:
+        candidates = self._particles_of(load)
+        faces = list(self.surface.faces_at(candidates, axis, at))
+        if any(len(set(sign.tolist())) > 1 for _, _, sign in faces):
+            message = f"lies inside body {load.body}; give its face"
+            self.wrong(("loads", number, "where"), message)
+            return
+        for block, mine, sign in faces:
+            stress = np.array(load.traction) if load.traction is not None else np.zeros(2)
+            if load.pressure is not None:
+                stress[axis] = -sign[0] * load.pressure
+            corners = self.surface.corners(block, mine, axis, sign[0], stress)
+            self.tractions.append(Traction(corners, block.shape, load.in_time))
+        if not faces:
             message = f"no face of a particle of body {load.body} lies there"
             self.wrong(("loads", number, "where"), message)
         self._spoil(self.particles.origin[candidates], "a loaded face")
-
-    def _faces(self, chosen, block, axis, sign, load) -> Faces:
-        """Return both corners of the loaded face of each particle."""
-        half, width, other = block.shape.half, self.lattice.width, 1 - axis
-        corners = np.zeros((2, 2))
-        corners[:, axis] = sign * half[axis]
-        corners[:, other] = half[other], -half[other]
-        # Along a radius a corner's share of the face is that of the ring a third of the way out.
-        out = corners[:, 0] if axis == 0 else corners[:, 0] / 3.0
-        radius = self.particles.origin[chosen, 0][:, None] + width * out
-        if isinstance(getattr(block.shape, "plain", block.shape), Linear):
-            corners[:] = 0.0  # a point sees no node beyond its own cell
-        stress = np.array(load.traction) if load.traction is not None else np.zeros(2)
-        if load.pressure is not None:
-            stress[axis] = -sign * load.pressure
-        share = half[other] * width * depth(self.geometry, radius)
-        return Faces(
-            particle=np.repeat(chosen, 2),
-            corner=np.tile(corners, (len(chosen), 1)),
-            force=stress * share.reshape(-1, 1),
-        )
 
     def add_gravity(self, number, load):
         """Add an acceleration of everything."""
         self.gravity.append(Gravity(tuple(float(a) for a in load.acceleration), load.in_time))
 
-    def _particles_of(self, load, where, *, touching) -> np.ndarray:
-        """Return the particles of a body in a region; on a plane, those whose box touches it."""
+    def _particles_of(self, load) -> np.ndarray:
+        """Return the particles of the body of a load in its region."""
         body = next(n for n, b in enumerate(self.deck.bodies) if b.name == load.body)
-        inside = self.particles.body == body
-        per_cell = self.deck.bodies[body].particles_per_cell
-        half = 0.5 * self.lattice.width / per_cell if touching else 0.0
-        planes = {axis for axis, _ in where.planes}
-        for d in range(2):
-            low, high = _span(where, d, self.tolerance)
-            grown = half if d in planes else 0.0
-            x = self.particles.origin[:, d]
-            inside &= (x >= low - grown) & (x <= high + grown)
-        return np.flatnonzero(inside)
+        return self.surface.particles_of(body, load.where)
 
     def _spoil(self, places, what, crack=-1):
         """Note places that no J domain may hold, but that of `crack`."""
@@ -300,9 +290,3 @@ class _Builder:
         high = self.particles.origin.max(axis=0) + self.lattice.width
         near = np.all((places >= low) & (places <= high), axis=1)
         self.obstacles.append(Obstacle(places[near], what, crack))
-
-
-def _span(where, axis, tolerance) -> tuple[float, float]:
-    """Return the limits of a region along an axis (m), infinite where it has none."""
-    span = where.span(axis)
-    return (-np.inf, np.inf) if span is None else (span[0] - tolerance, span[1] + tolerance)

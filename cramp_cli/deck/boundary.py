@@ -25,7 +25,7 @@ class VelocityOnPlane(Section):
 
 
 class BoundarySection(Section):
-    """Motion prescribed on a plane of grid nodes: one of `fix`, `velocity` and `symmetry`."""
+    """What a plane of grid nodes does: one of `fix`, `velocity`, `symmetry` and `absorbing`."""
 
     name: Name | None = Field(None, description="its name, for messages and overrides")
     where: Where = Field(description="the plane; further ranges limit it")
@@ -36,6 +36,9 @@ class BoundarySection(Section):
     symmetry: Flag | None = Field(
         None, description="mirror plane: nothing moves through it, both sides slide along it"
     )
+    absorbing: Flag | None = Field(
+        None, description="faces of bodies on the plane let waves out, as if the solid went on"
+    )
     in_time: Curve = Field(
         default_factory=Constant, description="what `velocity` is multiplied by, over time"
     )
@@ -43,14 +46,15 @@ class BoundarySection(Section):
     @classmethod
     def wrong_keys(cls, keys: set[str]) -> Iterator[Wrong]:
         """One kind of motion."""
-        yield from only_one(keys, ("fix", "velocity", "symmetry"))
+        yield from only_one(keys, ("fix", "velocity", "symmetry", "absorbing"))
 
     def wrong_values(self) -> Iterator[Wrong]:
         """Planes are where motion is prescribed."""
         planes = len(self.where.planes)
-        if self.symmetry is False:
-            yield ("symmetry",), "must be true; leave it out otherwise"
-        elif self.symmetry and planes != 1:
+        for key in ("symmetry", "absorbing"):
+            if getattr(self, key) is False:
+                yield (key,), "must be true; leave it out otherwise"
+        if (self.symmetry or self.absorbing) and planes != 1:
             yield ("where",), f"must be exactly one plane: one number for x or y (got {planes})"
         elif not planes:
             yield ("where",), "must be a plane: give one number for x or y"
@@ -62,6 +66,8 @@ class BoundarySection(Section):
     @property
     def components(self) -> tuple[tuple[int, float], ...]:
         """Axis (0, 1) and velocity (m/s) of each prescribed component."""
+        if self.absorbing:
+            return ()
         if self.fix:
             return tuple((AXES.index(axis), 0.0) for axis in self.fix)
         if self.symmetry:

@@ -30,6 +30,7 @@ HISTORY_COLUMNS = {
         "J",
         "energy taken by damping, and by the filter of updates other than flip",
     ),
+    "absorbed_energy": ("J", "energy that has left through absorbing boundaries"),
     "external_work": ("J", "work of loads and moving boundaries"),
     "energy_error": ("1", "sum of all energies minus start and work, over the largest of them"),
     "momentum_x": ("N*s", "momentum of all particles along x"),

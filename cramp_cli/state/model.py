@@ -56,6 +56,7 @@ class Books(NamedTuple):
     damping: np.ndarray  # taken by damping
     friction: np.ndarray  # work of friction on crack faces
     fracture: np.ndarray  # spent on new crack surface
+    absorbed: np.ndarray  # taken by absorbing boundaries
 
 
 @dataclass(frozen=True)
@@ -124,6 +125,7 @@ class Scratch:
     meeting: Any = None  # contact between bodies
     drawn: Any = None  # tractions on the faces of cracks in this step, gaps at its start
     parted: Any = ()  # crack points that have lost all traction in this step
+    dashpots: Any = None  # of absorbing boundaries
     share: np.ndarray | None = None  # (nodes,) of the sums of a node that are the body's own
 
     @property
@@ -134,4 +136,4 @@ class Scratch:
 
 def no_energy() -> Books:
     """Return books in which nothing is written."""
-    return Books(np.zeros(1), np.zeros(1), np.zeros(1), np.zeros(1))
+    return Books(*(np.zeros(1) for _ in Books._fields))

@@ -43,6 +43,23 @@ def test_a_misplaced_traction_is_told_once(place, words):
     assert told.endswith(f"loads.0.where: {words}")
 
 
+@pytest.mark.parametrize(("place", "words"), [
+    ({"y": 3}, "lies inside a body; give its face"),
+    ({"y": 7}, "no face of a particle lies there"),
+])  # fmt: skip
+def test_an_absorbing_boundary_needs_faces(place, words):
+    (told,) = mistakes(boundary=[{"where": place, "absorbing": True}])
+    assert told.endswith(f"boundary.0.where: {words}")
+
+
+def test_an_absorbing_boundary_needs_speeds_of_waves():
+    material = {"law": "viscoelastic", "density": 1.0, "E": 1.0, "nu": 0.3}
+    material["prony"] = [{"share": 0.5, "time": 1.0}]
+    boundary = [{"where": {"y": 6}, "absorbing": True}]
+    (told,) = mistakes(boundary=boundary, materials={"soft": material})
+    assert "the waves of 'soft' have no speed of their own" in told
+
+
 @pytest.mark.parametrize("law", ["frictional", "glued", "stick"])
 def test_contact_does_not_act_on_a_symmetry_plane(law):
     """The other side is an image, with no rows to press on: free faces or nothing."""

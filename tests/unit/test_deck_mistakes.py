@@ -187,6 +187,14 @@ def test_the_good_deck_is_good(tmp_path):
             "boundary.0.symmetry: must be true; leave it out otherwise",
         ),
         (
+            "boundary.0={where: {x: 0}, absorbing: false}",
+            "boundary.0.absorbing: must be true; leave it out otherwise",
+        ),
+        (
+            "boundary.0={where: {x: 0, y: 0}, absorbing: true}",
+            "boundary.0.where: must be exactly one plane: one number for x or y (got 2)",
+        ),
+        (
             "boundary.0={where: {x: 0}, velocity: {}}",
             "boundary.0.velocity: give x or y or both",
         ),

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from support import advance, build_deck
 
-from cramp_cli.boundary.symmetry import reflect, reflect_mass, stop_normal
+from cramp_cli.boundary.symmetry import reflect, stop_normal
 from cramp_cli.build.model import SHAPES
 from cramp_cli.cracks.rows import add_row
 from cramp_cli.state.grid import make_grid
@@ -22,7 +22,7 @@ def test_sums_of_both_sides_are_given_to_each_other():
     field = np.array([[1.0, 2.0], [9.0, 9.0], [10.0, 20.0]])
     grid.mass[:] = (1.0, 5.0, 2.0)
     reflect(field, rows, 0, NONE, out, inside, True)
-    reflect_mass(grid.mass, rows, NONE, out, inside)
+    reflect(grid.mass.reshape(-1, 1), rows, NONE, NONE, out, inside, True)
     assert field.tolist() == [[-9.0, 22.0], [9.0, 9.0], [9.0, 22.0]]
     assert grid.mass.tolist() == [3.0, 5.0, 3.0]
 
