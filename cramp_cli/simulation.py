@@ -5,6 +5,7 @@ from time import perf_counter
 
 import numpy as np
 
+from cramp_cli.boundary.events import new_events, past_events
 from cramp_cli.clock import Due, Stopwatch
 from cramp_cli.cracks.account import growth_of_ends, path_rows
 from cramp_cli.cracks.cohesion import parted_points, tractions_now
@@ -58,6 +59,7 @@ def simulate(
         while state.time < model.end_time - 1e-9 * model.dt:
             step(model, state, run.scratch, run.watch)
             run.let_cracks_grow()
+            run.let_events_happen()
             run.after_step()
             first = first or run.first_step_took(perf_counter() - begin)
             wall = perf_counter() - begin - first
@@ -67,8 +69,8 @@ def simulate(
     if profile:
         reporter.message("info", run.watch.table())
     speed = run.steps_after_first() * len(state.particles.mass) / max(wall - first, 1e-9)
-    grown = tuple(growth_of_ends(model, state))
-    return Summary(state.step, state.time, wall, run.tips, run.balance.error, speed or None, grown)
+    found = (speed or None, tuple(growth_of_ends(model, state)), tuple(past_events(model, state)))
+    return Summary(state.step, state.time, wall, run.tips, run.balance.error, *found)
 
 
 class _Run:
@@ -98,6 +100,12 @@ class _Run:
             for name in blind_tips(self.model, self.state):
                 text = f"no domain fits around the tip {name}: it has no load and can not grow"
                 self._tell(f"blind {name}", text)
+
+    def let_events_happen(self) -> None:
+        """Hold or reverse the conditions whose event has come, and tell of it."""
+        for text in new_events(self.model, self.state):
+            where = f"step {self.state.step}, t = {self.state.time:.6g} s"
+            self.reporter.message("info", f"{where}: {text}")
 
     def after_step(self) -> None:
         """Look after the solution and write what is due."""

@@ -4,10 +4,9 @@ Read from top to bottom; docs/theory/step.md has a paragraph for each title. Wha
 which rows, is in the module it comes from.
 """
 
+from cramp_cli.boundary.absorbing import absorb_waves, book_absorbed
 from cramp_cli.boundary.conditions import (
-    absorb_waves,
     add_loads,
-    book_absorbed,
     book_tractions,
     hold_after_contact,
     hold_forces,
@@ -30,7 +29,7 @@ from cramp_cli.transfer.on_grid import advance_momentum, find_acceleration, find
 
 def step(model, state, scratch, watch) -> None:
     """Advance `state` by one time step; `watch(title)` times the paragraphs."""
-    dt, time, conditions, laws = model.dt, state.time, model.conditions, model.contact
+    dt, conditions, laws = model.dt, model.conditions, model.contact
 
     with watch("1 where the particles are"):
         list_cracks(model, state, scratch)
@@ -46,35 +45,35 @@ def step(model, state, scratch, watch) -> None:
     with watch("3 mass and momentum to the grid"):
         sums.sum_mass_and_momentum(model, state, scratch)
         meet_rows(conditions, scratch, model.lattice.width)
-        reflect_mass_and_momentum(conditions, scratch, time)
+        reflect_mass_and_momentum(conditions, scratch, state)
         grid.saved[:count] = grid.momentum[:count]
         touch_bodies(model, state, scratch, FIRST)
         touch(grid, rows, laws, model.strides, dt, FIRST)
         repeat_images(conditions, scratch, grid.momentum, grid.saved)
-        book_tractions(model, scratch, state, time, 0.5 * dt)
+        book_tractions(model, scratch, state)
 
     with watch("4 strain before the forces"):  # all of the step in USF, half in USAVG, none in USL
         if model.scheme.before:
-            hold_momenta(conditions, scratch, time)
+            hold_momenta(conditions, scratch, state)
             find_strain_velocity(model, state, scratch)
             sums.strain(model, state, scratch, model.scheme.before)
         grid.momentum[:count] = grid.saved[:count]
 
     with watch("5 forces"):
         sums.sum_internal_force(model, state, scratch)
-        add_loads(model, scratch, time)
+        add_loads(model, scratch, state)
         draw_faces(model, state, scratch)
         reflect_forces(conditions, scratch, state)
         absorb_waves(model, scratch, state)
 
     with watch("6 equation of motion in every velocity field"):
-        hold_forces(conditions, scratch, state, time, dt)
+        hold_forces(conditions, scratch, state, dt)
         advance_momentum(grid, count, model.strides, dt)
         touch_bodies(model, state, scratch, UPDATE)
         state.books.friction[0] += touch(grid, rows, laws, model.strides, dt, UPDATE)
         resist_opening(model, state, scratch)
         repeat_images(conditions, scratch, grid.momentum, grid.force)
-        hold_after_contact(conditions, scratch, state, time, dt)
+        hold_after_contact(conditions, scratch, state, dt)
         find_acceleration(grid, count, model.strides)
 
     with watch("7 particles move"):
@@ -96,8 +95,8 @@ def step(model, state, scratch, watch) -> None:
             touch_bodies(model, state, scratch, LAST)
             touch(grid, rows, laws, model.strides, dt, LAST)
             repeat_images(conditions, scratch, grid.momentum)
-            hold_momenta(conditions, scratch, time)
-        book_tractions(model, scratch, state, time, 0.5 * dt)
+            hold_momenta(conditions, scratch, state)
+        book_tractions(model, scratch, state)
         book_absorbed(model, scratch, state)
         if model.scheme.after:
             find_strain_velocity(model, state, scratch)

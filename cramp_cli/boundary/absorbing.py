@@ -12,12 +12,24 @@ middle of the step, as the stress is, v = (p + theta dt f)/(m + theta dt C) with
 rows with little mass theta is larger, 1 - m/(dt C), so that none is turned round by its dashpots.
 """
 
-from typing import NamedTuple
+from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from cramp_cli.boundary.symmetry import reflect_even
+from cramp_cli.boundary.traction import Faces, add_traction
 from cramp_cli.boundary.velocity import own_share
 from cramp_cli.numerics.kernel import kernel
+
+
+@dataclass(frozen=True)
+class Absorber:
+    """Dashpots on particle faces of one block, and the boundary that books their reaction."""
+
+    faces: Faces  # their `force` is the impedance times the area, N s/m
+    shape: Any
+    boundary: int
 
 
 class Dashpots(NamedTuple):
@@ -75,3 +87,38 @@ def drag_power(grid, dashpots, rows, share, count, strides):
                 pull = own_share(rows, share, row) * total[row, d] * velocity[row, d]
                 power += pull * momentum[row, d] / mass[row]
     return power
+
+
+def absorb_waves(model, scratch, state) -> None:
+    """Let the dashpots of absorbing boundaries act against the motion that the forces give."""
+    conditions, grid, rows = model.conditions, scratch.grid, scratch.rows
+    if not conditions.absorbers:
+        return
+    dashpots, count = _dashpots(model, scratch), scratch.row_count
+    drag(grid, dashpots, count, model.strides, model.dt)
+    for absorber, impedance in zip(conditions.absorbers, dashpots.each, strict=True):
+        reaction = state.reactions[absorber.boundary]
+        add_drag(reaction, impedance, dashpots.velocity, rows, scratch.share, count)
+    book_absorbed(model, scratch, state)
+
+
+def _dashpots(model, scratch) -> Dashpots:
+    """Return the dashpots of this step by rows."""
+    conditions, rows = model.conditions, scratch.rows
+    dashpots = make_dashpots(scratch.dashpots, scratch.grid.force, len(conditions.absorbers))
+    for one, impedance in zip(conditions.absorbers, dashpots.each, strict=True):
+        places = (scratch.index, one.faces, one.shape, model.strides)
+        add_traction(impedance, scratch.stencil, *places, 1.0)
+        for plane, free in zip(conditions.mirrors, scratch.free, strict=True):
+            reflect_even(plane.mirror, free, rows, impedance)
+        dashpots.total[:] += impedance
+    scratch.dashpots = dashpots
+    return dashpots
+
+
+def book_absorbed(model, scratch, state) -> None:
+    """Book what dashpots take over half a step, as `book_tractions` does what tractions do."""
+    if model.conditions.absorbers:
+        where = (scratch.rows, scratch.share, scratch.row_count, model.strides)
+        power = drag_power(scratch.grid, scratch.dashpots, *where)
+        state.books.absorbed[0] += 0.5 * model.dt * power

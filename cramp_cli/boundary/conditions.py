@@ -5,19 +5,13 @@ from typing import Any
 
 import numpy as np
 
-from cramp_cli.boundary.absorbing import (
-    Dashpots,
-    add_drag,
-    drag,
-    drag_power,
-    make_dashpots,
-)
 from cramp_cli.boundary.beyond import Beyond, follow_force, follow_increment, follow_momentum
 from cramp_cli.boundary.symmetry import (
     Mirror,
     double_on,
     find_open_nodes,
     reflect,
+    reflect_even,
     reflect_on,
     stop_normal,
     sum_outside,
@@ -32,17 +26,18 @@ from cramp_cli.boundary.velocity import (
     hold_zero,
 )
 from cramp_cli.state.particles import DELETED
+from cramp_cli.state.signal import Signal
 from cramp_cli.transfer.on_grid import add_gravity
 from cramp_cli.transfer.to_grid import sum_particle_force
 
 
 @dataclass(frozen=True)
 class Hold:
-    """A prescribed velocity component: value times curve."""
+    """A prescribed velocity component: value times signal."""
 
     held: Held
     value: float  # m/s
-    curve: Any  # .value(t)
+    signal: Signal
     boundary: int  # number of the boundary that books the reaction
     beyond: Beyond | None = None  # nodes behind it that have to follow
 
@@ -57,12 +52,12 @@ class MirrorPlane:
 
 @dataclass(frozen=True)
 class ParticleForce:
-    """Forces on particles of one block: load times curve."""
+    """Forces on particles of one block: load times signal."""
 
     particles: np.ndarray  # (n,) their numbers
     load: np.ndarray  # (n, dim) N
     shape: Any
-    curve: Any
+    signal: Signal
 
     def where(self, index) -> tuple:
         """Return places and loads of those that are left; index: the place of each number."""
@@ -73,28 +68,19 @@ class ParticleForce:
 
 @dataclass(frozen=True)
 class Traction:
-    """Tractions on particle faces of one block: load times curve."""
+    """Tractions on particle faces of one block: load times signal."""
 
     faces: Faces
     shape: Any
-    curve: Any
-
-
-@dataclass(frozen=True)
-class Absorber:
-    """Dashpots on particle faces of one block, and the boundary that books their reaction."""
-
-    faces: Faces  # their `force` is the impedance times the area, N s/m
-    shape: Any
-    boundary: int
+    signal: Signal
 
 
 @dataclass(frozen=True)
 class Gravity:
-    """A body force per mass: acceleration times curve."""
+    """A body force per mass: acceleration times signal."""
 
     acceleration: tuple  # m/s^2
-    curve: Any
+    signal: Signal
 
 
 @dataclass(frozen=True)
@@ -115,11 +101,11 @@ class Conditions:
         """Boundaries that book reactions; the axis of rings comes after those with a name."""
         return max([len(self.names), *(plane.boundary + 1 for plane in self.mirrors)])
 
-    def body_force(self, time: float, dim: int) -> tuple:
+    def body_force(self, state, dim: int) -> tuple:
         """Return the sum of all gravities (m/s^2)."""
         total = np.zeros(dim)
         for g in self.gravity:
-            total += g.curve.value(time) * np.array(g.acceleration)
+            total += g.signal.load(state) * np.array(g.acceleration)
         return tuple(total.tolist())
 
 
@@ -182,7 +168,7 @@ def _share_nodes(conditions, scratch) -> None:
         share[plane.mirror.outside] = 0.0
 
 
-def reflect_mass_and_momentum(conditions, scratch, time) -> None:
+def reflect_mass_and_momentum(conditions, scratch, state) -> None:
     """Give the sums on both sides of every symmetry plane to each other.
 
     Behind a held plane that particles reach beyond, the motion goes on oddly from here on.
@@ -190,11 +176,11 @@ def reflect_mass_and_momentum(conditions, scratch, time) -> None:
     grid, rows = scratch.grid, scratch.rows
     for plane, free in zip(conditions.mirrors, scratch.free, strict=True):
         m = plane.mirror
-        _reflect_even(m, free, rows, grid.mass.reshape(-1, 1))
+        reflect_even(m, free, rows, grid.mass.reshape(-1, 1))
         _reflect(m, free, rows, grid.momentum, add=True)
     for hold, held in zip(conditions.holds, scratch.held, strict=True):
         if hold.beyond is not None:
-            _hold_momentum(hold, held, scratch, time)
+            _hold_momentum(hold, held, scratch, state)
 
 
 def reflect_sum(conditions, scratch, field) -> None:
@@ -232,31 +218,24 @@ def _reflect(m: Mirror, free, rows, field, *, add: bool) -> float:
     return taken
 
 
-def _reflect_even(m: Mirror, free, rows, field) -> None:
-    """Give a sum (rows, k) that has no direction on both sides of a plane to each other."""
-    reflect(field, rows, -1, m.crack, m.outside, m.inside, True)
-    double_on(field, rows, m.crack, m.on, free)
-    reflect_on(field, rows, -1, m.crack, m.on, free, True)
-
-
-def hold_momenta(conditions, scratch, time) -> None:
+def hold_momenta(conditions, scratch, state) -> None:
     """Impose the prescribed velocities on the momenta."""
     for hold, held in zip(conditions.holds, scratch.held, strict=True):
-        _hold_momentum(hold, held, scratch, time)
+        _hold_momentum(hold, held, scratch, state)
 
 
-def _hold_momentum(hold, held, scratch, time) -> None:
+def _hold_momentum(hold, held, scratch, state) -> None:
     grid, (rows, count) = scratch.grid, held
-    speed = hold.value * hold.curve.value(time)
+    speed = hold.value * hold.signal.speed(state)
     hold_momentum(grid.momentum, grid.mass, rows, count, hold.held.axis, speed)
     if hold.beyond is not None:
         follow_momentum(grid.momentum, scratch.rows, grid.mass, hold.beyond, speed)
 
 
-def hold_forces(conditions, scratch, state, time, dt) -> None:
+def hold_forces(conditions, scratch, state, dt) -> None:
     """Impose the prescribed velocities on the forces; book reactions and work."""
     for hold, (rows, count) in zip(conditions.holds, scratch.held, strict=True):
-        speed = hold.value * hold.curve.value(time)
+        speed = hold.value * hold.signal.speed(state)
         where = (scratch.grid, scratch.rows, scratch.share, rows, count)
         reaction, work = hold_force(*where, hold.held.axis, speed, dt)
         if hold.beyond is not None:
@@ -266,17 +245,17 @@ def hold_forces(conditions, scratch, state, time, dt) -> None:
         state.books.external[0] += work
 
 
-def hold_after_contact(conditions, scratch, state, time, dt) -> None:
+def hold_after_contact(conditions, scratch, state, dt) -> None:
     """Impose the velocities once more, on momenta and forces that contact has changed."""
     for hold, (rows, count) in zip(conditions.holds, scratch.held, strict=True):
-        speed = hold.value * hold.curve.value(time)
+        speed = hold.value * hold.signal.speed(state)
         where = (scratch.grid, scratch.rows, scratch.share, rows, count)
         reaction = hold_again(*where, hold.held.axis, speed, dt)
         state.reactions[hold.boundary, hold.held.axis] += reaction
         state.books.external[0] += reaction * speed * dt
 
 
-def book_tractions(model, scratch, state, time, duration) -> None:
+def book_tractions(model, scratch, state) -> None:
     """Book the work of tractions over half a step, with the momenta at its start or end.
 
     With the same velocities as the two strain updates the books close as well as the scheme
@@ -285,42 +264,7 @@ def book_tractions(model, scratch, state, time, duration) -> None:
     for t in model.conditions.tractions:
         places = (scratch.index, t.faces, t.shape, model.strides)
         power = traction_power(scratch.grid, scratch.stencil, *places)
-        state.books.external[0] += t.curve.value(time) * power * duration
-
-
-def absorb_waves(model, scratch, state) -> None:
-    """Let the dashpots of absorbing boundaries act against the motion that the forces give."""
-    conditions, grid, rows = model.conditions, scratch.grid, scratch.rows
-    if not conditions.absorbers:
-        return
-    dashpots, count = _dashpots(model, scratch), scratch.row_count
-    drag(grid, dashpots, count, model.strides, model.dt)
-    for absorber, impedance in zip(conditions.absorbers, dashpots.each, strict=True):
-        reaction = state.reactions[absorber.boundary]
-        add_drag(reaction, impedance, dashpots.velocity, rows, scratch.share, count)
-    book_absorbed(model, scratch, state)
-
-
-def _dashpots(model, scratch) -> Dashpots:
-    """Return the dashpots of this step by rows."""
-    conditions, rows = model.conditions, scratch.rows
-    dashpots = make_dashpots(scratch.dashpots, scratch.grid.force, len(conditions.absorbers))
-    for one, impedance in zip(conditions.absorbers, dashpots.each, strict=True):
-        places = (scratch.index, one.faces, one.shape, model.strides)
-        add_traction(impedance, scratch.stencil, *places, 1.0)
-        for plane, free in zip(conditions.mirrors, scratch.free, strict=True):
-            _reflect_even(plane.mirror, free, rows, impedance)
-        dashpots.total[:] += impedance
-    scratch.dashpots = dashpots
-    return dashpots
-
-
-def book_absorbed(model, scratch, state) -> None:
-    """Book what dashpots take over half a step, as `book_tractions` does what tractions do."""
-    if model.conditions.absorbers:
-        where = (scratch.rows, scratch.share, scratch.row_count, model.strides)
-        power = drag_power(scratch.grid, scratch.dashpots, *where)
-        state.books.absorbed[0] += 0.5 * model.dt * power
+        state.books.external[0] += t.signal.load(state) * power * (0.5 * model.dt)
 
 
 def hold_increment(conditions, scratch, field) -> None:
@@ -331,15 +275,15 @@ def hold_increment(conditions, scratch, field) -> None:
             follow_increment(field, scratch.rows, scratch.grid.mass, hold.beyond)
 
 
-def add_loads(model, scratch, time) -> None:
+def add_loads(model, scratch, state) -> None:
     """Add all loads to the forces of the grid."""
     conditions, strides, grid = model.conditions, model.strides, scratch.grid
     for f in conditions.forces:
-        factor = f.curve.value(time)
+        factor = f.signal.load(state)
         chosen, load = f.where(scratch.index)
         sum_particle_force(grid, chosen, load, scratch.stencil, f.shape, strides, factor)
     for t in conditions.tractions:
         places = (scratch.index, t.faces, t.shape, strides)
-        add_traction(grid.force, scratch.stencil, *places, t.curve.value(time))
+        add_traction(grid.force, scratch.stencil, *places, t.signal.load(state))
     if conditions.gravity:
-        add_gravity(grid, scratch.row_count, conditions.body_force(time, len(strides)))
+        add_gravity(grid, scratch.row_count, conditions.body_force(state, len(strides)))

@@ -186,3 +186,10 @@ def sum_outside(force, rows, axis, crack, outside, inside, on):
                 total += force[image if body else row, axis]
             row = rows.next[row - nodes]
     return total
+
+
+def reflect_even(m: Mirror, free, rows, field) -> None:
+    """Give a sum (rows, k) that has no direction on both sides of a plane to each other."""
+    reflect(field, rows, -1, m.crack, m.outside, m.inside, True)
+    double_on(field, rows, m.crack, m.on, free)
+    reflect_on(field, rows, -1, m.crack, m.on, free, True)

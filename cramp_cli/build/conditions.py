@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from cramp_cli.boundary.absorbing import Absorber
 from cramp_cli.boundary.beyond import Beyond
 from cramp_cli.boundary.conditions import (
-    Absorber,
     Conditions,
     Gravity,
     Hold,
@@ -17,6 +17,7 @@ from cramp_cli.boundary.velocity import Held
 from cramp_cli.build.faces import Surface, impedances, span
 from cramp_cli.cracks.room import Obstacle
 from cramp_cli.deck.deck import DeckError
+from cramp_cli.deck.events import boundary_names
 from cramp_cli.deck.where import AXES
 from cramp_cli.materials.geometry import depth
 from cramp_cli.shapes.shape import is_ring, reaches_beyond
@@ -26,9 +27,13 @@ TOUCHES_AXIS = 2.0  # cells from the axis within which a particle may see its no
 REACH = 1.5  # cells beside a region in which a node may hold particles of it
 
 
-def build_conditions(deck, lattice, geometry, particles, blocks, paths) -> tuple[Conditions, tuple]:
-    """Return all conditions, and what spoils a J domain."""
-    builder = _Builder(deck, lattice, geometry, particles, blocks, paths)
+def build_conditions(deck, events, *solid) -> tuple[Conditions, tuple]:
+    """Return all conditions, and what spoils a J domain.
+
+    events: EventList that grows by what the conditions wait for
+    solid: lattice, geometry, particles, blocks, paths
+    """
+    builder = _Builder(deck, events, *solid)
     for number, boundary in enumerate(deck.boundary):
         builder.add_boundary(number, boundary)
     for number, load in enumerate(deck.loads):
@@ -60,7 +65,7 @@ def _contested(holds) -> tuple:
         for n, one in enumerate(holds)
         for m, other in enumerate(holds[n + 1 :])
         if one.held.axis == other.held.axis
-        and (one.value, one.curve) != (other.value, other.curve)
+        and (one.value, one.signal) != (other.value, other.signal)
         and len(np.intersect1d(one.held.node, other.held.node))
     )
 
@@ -68,8 +73,8 @@ def _contested(holds) -> tuple:
 class _Builder:
     """Collects conditions and mistakes."""
 
-    def __init__(self, deck, lattice, geometry, particles, blocks, paths):
-        self.deck, self.lattice, self.geometry = deck, lattice, geometry
+    def __init__(self, deck, events, lattice, geometry, particles, blocks, paths):
+        self.deck, self.events, self.lattice, self.geometry = deck, events, lattice, geometry
         self.particles, self.blocks, self.paths = particles, blocks, paths
         self.nodes = lattice.node_positions()
         self.tolerance = ON_PLANE * lattice.width
@@ -84,7 +89,7 @@ class _Builder:
 
     def add_boundary(self, number, boundary):
         """Add a fixed or moving plane, or a symmetry plane."""
-        self.names.append(boundary.name or f"boundary_{number + 1}")
+        self.names.append(boundary_names(self.deck)[number])
         if boundary.symmetry:
             self._add_mirror(number, boundary)
         elif boundary.absorbing:
@@ -105,10 +110,11 @@ class _Builder:
             self.wrong(("boundary", number, "where"), "holds no grid node")
         free = np.array([d in planes for d in range(2)])
         region = (np.where(free, -np.inf, lower), np.where(free, np.inf, upper))
+        signal = self.events.signal(boundary, f"boundary {self.names[number]}")
         for axis, speed in boundary.components:
             held = Held(node, inside.astype(np.int64), axis, *region)
             beyond = self._beyond(where, node[inside], axis)
-            self.holds.append(Hold(held, float(speed), boundary.in_time, number, beyond))
+            self.holds.append(Hold(held, float(speed), signal, number, beyond))
         self._spoil(self.nodes[node[inside]], "a held boundary")
 
     def _beyond(self, where, on, component) -> Beyond | None:
@@ -248,11 +254,12 @@ class _Builder:
         deep = depth(self.geometry, self.particles.origin[:, 0])
         rings = is_ring(self.blocks[0].shape) and load.total is not None
         share = deep / deep[chosen].mean() if rings else np.ones(len(deep))
+        signal = self._signal_of(number, load)
         for block in self.blocks:
             mine = chosen[(chosen >= block.lo) & (chosen < block.hi)]
             if len(mine):
                 force = share[mine, None] * each
-                self.forces.append(ParticleForce(mine, force, block.shape, load.in_time))
+                self.forces.append(ParticleForce(mine, force, block.shape, signal))
         self._spoil(self.particles.origin[chosen], "a loaded particle")
 
     def add_traction(self, number, load):
@@ -264,12 +271,13 @@ class _Builder:
             message = f"lies inside body {load.body}; give its face"
             self.wrong(("loads", number, "where"), message)
             return
+        signal = self._signal_of(number, load)
         for block, mine, sign in faces:
             stress = np.array(load.traction) if load.traction is not None else np.zeros(2)
             if load.pressure is not None:
                 stress[axis] = -sign[0] * load.pressure
             corners = self.surface.corners(block, mine, axis, sign[0], stress)
-            self.tractions.append(Traction(corners, block.shape, load.in_time))
+            self.tractions.append(Traction(corners, block.shape, signal))
         if not faces:
             message = f"no face of a particle of body {load.body} lies there"
             self.wrong(("loads", number, "where"), message)
@@ -277,7 +285,11 @@ class _Builder:
 
     def add_gravity(self, number, load):
         """Add an acceleration of everything."""
-        self.gravity.append(Gravity(tuple(float(a) for a in load.acceleration), load.in_time))
+        signal = self._signal_of(number, load)
+        self.gravity.append(Gravity(tuple(float(a) for a in load.acceleration), signal))
+
+    def _signal_of(self, number, load):
+        return self.events.signal(load, f"load {load.name or number + 1}")
 
     def _particles_of(self, load) -> np.ndarray:
         """Return the particles of the body of a load in its region."""

@@ -29,8 +29,8 @@ def build_groups(deck) -> Groups:
     return Groups(of_body, np.array(cracks, dtype=np.int64))
 
 
-def build_body_contact(deck) -> BodyContact | None:
-    """Return how the bodies touch; None if they do not."""
+def build_body_contact(deck, events) -> BodyContact | None:
+    """Return how the bodies touch; None if they do not. events: EventList that grows by theirs."""
     section = deck.contact
     if section.bodies is None:
         return None
@@ -42,7 +42,12 @@ def build_body_contact(deck) -> BodyContact | None:
         a, b = (group[name] for name in pair.bodies)
         laws[:, a, b] = laws[:, b, a] = _numbers(pair.contact)
     rigid = tuple(
-        RigidBody(group[b.name], n, np.array(b.rigid.velocity, dtype=float), b.rigid.in_time)
+        RigidBody(
+            group[b.name],
+            n,
+            np.array(b.rigid.velocity, dtype=float),
+            events.signal(b.rigid, f"body {b.name}"),
+        )
         for n, b in enumerate(deck.bodies)
         if b.rigid
     )

@@ -6,6 +6,7 @@ from cramp_cli.build.cohesion import build_cohesion, largest_step
 from cramp_cli.build.conditions import build_conditions
 from cramp_cli.build.contact import build_body_contact, build_crack_laws, build_groups
 from cramp_cli.build.covered import crack_line
+from cramp_cli.build.events import EventList
 from cramp_cli.build.growth import build_propagation
 from cramp_cli.build.laws import law_of
 from cramp_cli.build.surface import settled
@@ -55,8 +56,9 @@ def build(deck: Deck) -> tuple[Model, State]:
     blocks, particles = _fill(deck, lattice, geometry, seeds)
     paths = _paths(deck, lattice)
     solid = (lattice, geometry, particles, blocks, paths)
-    conditions, obstacles = build_conditions(deck, *solid)
-    between = build_body_contact(deck)
+    events = EventList(deck)
+    conditions, obstacles = build_conditions(deck, events, *solid)
+    between = build_body_contact(deck, events)
     model = Model(
         lattice=lattice,
         geometry=geometry,
@@ -82,6 +84,7 @@ def build(deck: Deck) -> tuple[Model, State]:
             obstacles=obstacles,
         ),
         cohesion=build_cohesion(deck, paths),
+        events=tuple(events.events),
         propagation=build_propagation(deck, blocks, geometry),
     )
     reactions = np.zeros((conditions.boundary_count, len(lattice.cells)))
@@ -96,6 +99,7 @@ def build(deck: Deck) -> tuple[Model, State]:
         contact_forces=np.zeros((len(between.names) if between else 0, len(lattice.cells))),
         bands=np.array(bands),
         growth=make_growth(paths),
+        events=np.full(len(events.events), np.inf),
     )
 
 

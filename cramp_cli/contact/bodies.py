@@ -29,7 +29,7 @@ def find_pairs(model, state, scratch) -> None:
         return
     between, meeting = model.between_bodies, _meeting(model, scratch)
     rows, stencil, clouds = scratch.rows, scratch.stencil, meeting.clouds
-    meeting.velocity = between.rigid_velocities(state.time, len(model.strides))
+    meeting.velocity = between.rigid_velocities(state, len(model.strides))
     state.contact_forces[:] = 0.0
     clear_clouds(clouds, rows)
     for b in model.blocks:
@@ -107,6 +107,6 @@ def move_rigid_bodies(model, state) -> None:
     particles = state.particles
     for one in model.between_bodies.rigid:
         mine = particles.body == one.body
-        velocity = one.curve.value(state.time) * one.velocity
+        velocity = one.signal.speed(state) * one.velocity
         particles.velocity[mine] = velocity
         particles.position[mine] += model.dt * velocity

@@ -1,9 +1,11 @@
 """How bodies touch: a law for each pair of contact groups, and the way normals are found."""
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
+
+from cramp_cli.state.signal import Signal
 
 AVERAGE, LARGER, LOGISTIC = 0, 1, 2
 NORMALS = {"average": AVERAGE, "larger": LARGER, "logistic": LOGISTIC}
@@ -19,12 +21,12 @@ class BodyLaws(NamedTuple):
 
 @dataclass(frozen=True)
 class RigidBody:
-    """A body with prescribed motion: velocity times curve."""
+    """A body with prescribed motion: velocity times signal."""
 
     group: int
     body: int  # number in the deck
     velocity: np.ndarray  # (dim,) m/s
-    curve: Any  # .value(t)
+    signal: Signal
 
 
 @dataclass(frozen=True)
@@ -42,9 +44,9 @@ class BodyContact:
         flags[[one.group for one in self.rigid]] = 1
         return flags
 
-    def rigid_velocities(self, time: float, dim: int) -> np.ndarray:
+    def rigid_velocities(self, state, dim: int) -> np.ndarray:
         """Return the prescribed velocity of every contact group (m/s), zero where there is none."""
         velocity = np.zeros((len(self.names), dim))
         for one in self.rigid:
-            velocity[one.group] = one.curve.value(time) * one.velocity
+            velocity[one.group] = one.signal.speed(state) * one.velocity
         return velocity

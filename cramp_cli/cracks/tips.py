@@ -147,7 +147,7 @@ def site_at(model, state, scratch, tip, place, before) -> Site:
     group = int(model.groups.of_crack[tip.crack])
     cloud = cloud_around(model, state, scratch, place, reach, group)
     block = block_at(model, cloud, place)
-    gravity = model.conditions.body_force(state.time, len(model.strides))
+    gravity = model.conditions.body_force(state, len(model.strides))
     half = bool(state.paths.mirror[tip.crack, 0] >= 0)
     if not half:
         frame = turned_with_solid(model, cloud.particles, frame)

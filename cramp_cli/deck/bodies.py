@@ -4,9 +4,10 @@ from collections.abc import Iterator
 
 from pydantic import Field
 
+from cramp_cli.deck.events import HOLD, KEYS, REVERSE, EventSection
 from cramp_cli.deck.shapes import AnyShape
 from cramp_cli.schema.curve import Constant, Curve
-from cramp_cli.schema.section import Count, Flag, Name, Section, Wrong
+from cramp_cli.schema.section import Count, Flag, Name, Section, Wrong, only_one
 from cramp_cli.schema.units import AngularVelocity, Length, Point, Velocity, pair
 
 FIT = 1e-6  # of a cell: how well a box must fit whole cells, and a plane a grid line
@@ -52,6 +53,13 @@ class RigidSection(Section):
     in_time: Curve = Field(
         default_factory=Constant, description="what `velocity` is multiplied by, over time"
     )
+    hold_when: EventSection | None = Field(None, description=HOLD)
+    reverse_when: EventSection | None = Field(None, description=REVERSE)
+
+    @classmethod
+    def wrong_keys(cls, keys: set[str]) -> Iterator[Wrong]:
+        """One event."""
+        yield from only_one(keys, KEYS, needed=False)
 
 
 class BodySection(Section):

@@ -5,6 +5,7 @@ from typing import Literal
 
 from pydantic import Field
 
+from cramp_cli.deck.events import HOLD, KEYS, REVERSE, EventSection
 from cramp_cli.deck.where import AXES, Where
 from cramp_cli.schema.curve import Constant, Curve
 from cramp_cli.schema.section import Flag, Name, Section, Wrong, only_one
@@ -42,11 +43,17 @@ class BoundarySection(Section):
     in_time: Curve = Field(
         default_factory=Constant, description="what `velocity` is multiplied by, over time"
     )
+    hold_when: EventSection | None = Field(None, description=HOLD)
+    reverse_when: EventSection | None = Field(None, description=REVERSE)
 
     @classmethod
     def wrong_keys(cls, keys: set[str]) -> Iterator[Wrong]:
         """One kind of motion."""
         yield from only_one(keys, ("fix", "velocity", "symmetry", "absorbing"))
+        yield from only_one(keys, KEYS, needed=False)
+        for key in KEYS:
+            if key in keys and "velocity" not in keys:
+                yield (key,), "goes with velocity only"
 
     def wrong_values(self) -> Iterator[Wrong]:
         """Planes are where motion is prescribed."""

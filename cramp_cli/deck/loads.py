@@ -5,6 +5,7 @@ from typing import Literal
 
 from pydantic import Field
 
+from cramp_cli.deck.events import HOLD, KEYS, REVERSE, EventSection
 from cramp_cli.deck.where import Where
 from cramp_cli.schema.curve import Constant, Curve
 from cramp_cli.schema.section import Name, Section, Wrong, one_of, only_one
@@ -23,11 +24,14 @@ class ForceSection(Section):
     total: pair(Force) | None = Field(None, description="sum over all particles chosen")
     each: pair(Force) | None = Field(None, description="force on each particle chosen")
     in_time: Curve = Field(default_factory=Constant, description=FACTOR)
+    hold_when: EventSection | None = Field(None, description=HOLD)
+    reverse_when: EventSection | None = Field(None, description=REVERSE)
 
     @classmethod
     def wrong_keys(cls, keys: set[str]) -> Iterator[Wrong]:
         """One way to say how much."""
         yield from only_one(keys, ("total", "each"))
+        yield from only_one(keys, KEYS, needed=False)
 
 
 class TractionSection(Section):
@@ -40,11 +44,14 @@ class TractionSection(Section):
     traction: pair(Stress) | None = Field(None, description="force per area of the face")
     pressure: Stress | None = Field(None, description="pressure; positive pushes on the face")
     in_time: Curve = Field(default_factory=Constant, description=FACTOR)
+    hold_when: EventSection | None = Field(None, description=HOLD)
+    reverse_when: EventSection | None = Field(None, description=REVERSE)
 
     @classmethod
     def wrong_keys(cls, keys: set[str]) -> Iterator[Wrong]:
         """One way to say how much."""
         yield from only_one(keys, ("traction", "pressure"))
+        yield from only_one(keys, KEYS, needed=False)
 
     def wrong_values(self) -> Iterator[Wrong]:
         """A face is one plane."""
@@ -60,6 +67,13 @@ class GravitySection(Section):
     name: Name | None = Field(None, description="its name, for messages and overrides")
     acceleration: pair(Acceleration) = Field(description="acceleration of free fall")
     in_time: Curve = Field(default_factory=Constant, description=FACTOR)
+    hold_when: EventSection | None = Field(None, description=HOLD)
+    reverse_when: EventSection | None = Field(None, description=REVERSE)
+
+    @classmethod
+    def wrong_keys(cls, keys: set[str]) -> Iterator[Wrong]:
+        """One event."""
+        yield from only_one(keys, KEYS, needed=False)
 
 
 AnyLoad = one_of("type", ForceSection, TractionSection, GravitySection)

@@ -22,6 +22,7 @@ class Summary(NamedTuple):
     energy_error: float | None = None  # share of the largest energy
     particle_steps_per_second: float | None = None
     growth: tuple = ()  # of dict: crack, tip, grown (m), energy (J), x, y (m), fate
+    events: tuple = ()  # of dict: time (s), event
 
 
 def summary_text(summary: Summary) -> str:
@@ -33,6 +34,7 @@ def summary_text(summary: Summary) -> str:
         "speed": "" if rate is None else f"{rate:.3g} particle-steps/s",
     }
     lines = [*map(growth_line, summary.growth)]
+    lines += [f"{number(one['time'])} s: {one['event']}" for one in summary.events]
     lines += [f"{name:13} {text}" for name, text in facts.items() if text]
     return "\n".join([tips_text(summary.tips), *lines] if summary.tips else lines)
 

@@ -78,6 +78,7 @@ class Model:
     between_bodies: Any = None  # BodyContact; None: all bodies are glued
     fracture: Any = None  # how J and K are evaluated
     cohesion: Any = None  # traction laws of crack faces; None: there are none
+    events: tuple = ()  # what loads and boundaries wait for: boundary/events.py
     propagation: Any = None  # when, where to and how fast cracks grow; None: they do not
     leaving: str = "error"  # what particles that leave the grid are: transfer/leaving.py
     calm_tips: bool = False  # filter particles around running tips: FLIP does not by itself
@@ -102,6 +103,7 @@ class State:
     contact_forces: np.ndarray  # (contact groups, dim) on their bodies in the last step (N)
     bands: np.ndarray  # (blocks, bands + 1) first particle of each band; those deleted come last
     growth: Growth
+    events: np.ndarray  # (events,) when each has happened (s), infinite before
 
 
 @dataclass

@@ -107,9 +107,9 @@ def move(model, state, scratch) -> None:
         state.books.damping[0] += float(scratch.per_band.sum())
     for f, (chosen, load), x in zip(conditions.forces, loaded, before, strict=True):
         way = particles.position[chosen] - x
-        state.books.external[0] += f.curve.value(state.time) * float(np.sum(load * way))
+        state.books.external[0] += f.signal.load(state) * float(np.sum(load * way))
     if conditions.gravity:
-        g = conditions.body_force(state.time, len(model.strides))
+        g = conditions.body_force(state, len(model.strides))
         state.books.external[0] += float((_weighed(particles) - weighed) @ g)
 
 

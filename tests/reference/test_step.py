@@ -77,7 +77,7 @@ def plain(model, state, holds):
         lame=block.law.lame, shear=block.law.shear,
         plane_stress=type(model.geometry).__name__ == "PlaneStress",
         dt=model.dt, shares=(model.scheme.before, model.scheme.after), again=model.scheme.again,
-        gravity=model.conditions.body_force(0.0, 2), damping=model.damping,
+        gravity=model.conditions.body_force(state, 2), damping=model.damping,
     )  # fmt: skip
 
 

@@ -41,3 +41,23 @@ def test_fall_is_exact(update, strain):
     assert p.velocity == pytest.approx(np.tile(v + a * t, (len(p.mass), 1)), rel=1e-12)
     assert p.position - p.origin == pytest.approx(np.tile(fall, (len(p.mass), 1)), rel=1e-11)
     assert np.abs(p.stress).max() < 1e-9 * 10e6  # E: nothing is strained
+
+
+def test_gravity_follows_tables_along_both_axes():
+    """Two loads of their own; the velocity is the sum of what the tables say at every step."""
+    tables = {0: ([0, 5e-3, 10e-3], [0.0, 2.0, -1.0]), 1: ([0, 10e-3], [1.0, 0.0])}
+    loads = [
+        {
+            "type": "gravity",
+            "acceleration": [-4.0 if axis == 0 else 0, -10.0 if axis == 1 else 0],
+            "in_time": {"type": "table", "time": times, "value": values},
+        }
+        for axis, (times, values) in tables.items()
+    ]
+    model, state, scratch = build_deck(STONE, loads=loads)
+    advance(model, state, scratch, 400)
+    times = model.dt * np.arange(400)
+    size = {0: -4.0, 1: -10.0}
+    for axis, (at, values) in tables.items():
+        wanted = VELOCITY[axis] + size[axis] * np.interp(times, at, values).sum() * model.dt
+        np.testing.assert_allclose(state.particles.velocity[:, axis], wanted, rtol=1e-12)

@@ -9,6 +9,7 @@ import pytest
 from support import advance, build_deck
 
 from cramp_cli.boundary.conditions import ParticleForce
+from cramp_cli.state.signal import Signal
 
 pytestmark = [pytest.mark.verification, pytest.mark.slow]
 
@@ -118,7 +119,7 @@ def error(case, cells):
     p = state.particles
     load = np.zeros_like(p.position)
     model.conditions.__dict__["forces"] = (
-        ParticleForce(np.arange(len(load)), load, model.blocks[0].shape, Constant()),
+        ParticleForce(np.arange(len(load)), load, model.blocks[0].shape, Signal(Constant())),
     )
     first = p.origin[np.argsort(p.id)].copy()
     mass = p.mass[np.argsort(p.id)][:, None]
