@@ -7,6 +7,8 @@ import numba
 import numpy as np
 from numba.extending import typeof_impl
 
+from cramp_cli.numerics.start import leave_out_blas
+
 REMEMBERED = 16  # sets of arguments for each kernel
 WORTH = 8  # calls that must be quicker for one look at new arguments
 
@@ -37,6 +39,7 @@ class Kernel:
         if known is not None:
             self._spent = max(self._spent - 1, 0)
             return known[0](*args)
+        leave_out_blas()
         result = self.compiled(*args)
         self._remember(handed, args)
         return result

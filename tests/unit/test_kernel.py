@@ -1,5 +1,7 @@
 """Kernels recognize what they are handed, and never mistake it for something else."""
 
+import subprocess
+import sys
 from typing import NamedTuple
 
 import numba
@@ -61,6 +63,18 @@ def test_a_known_record_shows_what_its_arrays_hold_now():
 
 def test_kernels_call_kernels():
     assert _call(_pair()) == 3.0
+
+
+@compiled
+def test_a_first_kernel_does_not_load_scipy_and_leaves_it_whole():
+    code = (
+        "import sys; from cramp_cli.numerics.yardstick import chain; import numpy as np\n"
+        "chain(np.ones(3), 0.5); assert 'scipy.linalg' not in sys.modules\n"
+        "import numba; import scipy.linalg.cython_blas\n"
+        "print(numba.njit(lambda a: a @ a)(np.eye(2)).sum())"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert (done.stdout.strip(), done.stderr) == ("2.0", "")
 
 
 @compiled
