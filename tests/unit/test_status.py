@@ -6,7 +6,6 @@ The bodies are at rest; where a word is about the fields, the particles are give
 import re
 from pathlib import Path
 
-import numpy as np
 import pytest
 from support import build_deck, locate
 from unit.test_tips import PLATE, inner, pieces, rectangle, sampled
@@ -90,7 +89,8 @@ AROUND = {
         "contour invalid: it is made for plane bodies"),
     "glued faces": ([EDGE | {"contact": {"law": "glued"}}], {"fracture": DOMAIN}, "closed"),
     "fibres": (
-        [EDGE], {"fracture": DOMAIN, "materials": {"wood": FIBRES}, "bodies": pieces("wood", "wood")},
+        [EDGE],
+        {"fracture": DOMAIN, "materials": {"wood": FIBRES}, "bodies": pieces("wood", "wood")},
         "K invalid: the stiffness of the material depends on direction or time"),
 }  # fmt: skip
 
