@@ -15,8 +15,14 @@ from cramp_cli.numerics.vector import (
 )
 from cramp_cli.shapes.shape import offsets, weights
 
-IGNORE, FRICTIONAL, STICK, GLUED = 0, 1, 2, 3
-LAWS = {"ignore": IGNORE, "frictional": FRICTIONAL, "stick": STICK, "glued": GLUED}
+IGNORE, FRICTIONAL, STICK, GLUED, ADHESIVE = 0, 1, 2, 3, 4
+LAWS = {
+    "ignore": IGNORE,
+    "frictional": FRICTIONAL,
+    "stick": STICK,
+    "glued": GLUED,
+    "adhesive": ADHESIVE,  # of bodies alone: contact/adhesion.py
+}
 
 OPEN, SLIDING, STUCK = 0, 1, 2  # what a pair of rows does
 
@@ -94,6 +100,14 @@ def impulse(kind, mu, mu_static, dp, n, dpn, gap):
 
 
 @kernel
+def momentum_to_meet(grid, a, b, strides):
+    """Return the momentum that row a must get from row b so that both move alike."""
+    ma, mb = grid.mass[a], grid.mass[b]
+    pa, pb = vector(strides, grid.momentum, a), vector(strides, grid.momentum, b)
+    return plus(times(pb, ma / (ma + mb)), -(mb / (ma + mb)), pa)
+
+
+@kernel
 def touch_pair(grid, a, b, normal, gap, kind, mu, mu_static, strides, dt, stage):
     """Let rows a (above) and b (below) touch.
 
@@ -101,10 +115,8 @@ def touch_pair(grid, a, b, normal, gap, kind, mu, mu_static, strides, dt, stage)
     """
     mass, momentum, saved, force = grid.mass, grid.momentum, grid.saved, grid.force
     ma, mb = mass[a], mass[b]
-    share_a, share_b = ma / (ma + mb), mb / (ma + mb)
-    reduced = ma * share_b
-    pa, pb = vector(strides, momentum, a), vector(strides, momentum, b)
-    dp = plus(times(pb, share_a), -share_b, pa)
+    reduced = ma * (mb / (ma + mb))
+    dp = momentum_to_meet(grid, a, b, strides)
     dpn = dot(dp, normal)
     given, state = impulse(kind, mu, mu_static, dp, normal, dpn, gap)
     for d in range(len(strides)):
