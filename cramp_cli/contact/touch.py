@@ -11,6 +11,7 @@ from cramp_cli.contact.adhesion import adhere
 from cramp_cli.cracks.contact import (
     ADHESIVE,
     FIRST,
+    FRICTIONAL,
     OPEN,
     SLIDING,
     UPDATE,
@@ -101,7 +102,7 @@ def momentum_wanted(grid, pairs, i, bodies, strides):
     if rigid[ga]:
         follow = momentum_to_follow(grid, b, vector(strides, velocity, ga), strides)
         return follow, times(n, -1.0)
-    return momentum_to_meet(grid, a, b, strides), n
+    return momentum_to_meet(grid, a, b, strides, grid.momentum), n
 
 
 @kernel
@@ -118,6 +119,7 @@ def push(grid, row, velocity, normal, gap, kind, mu, mu_static, strides, dt, sta
     """
     mass, momentum, force = grid.mass[row], grid.momentum, grid.force
     dp = momentum_to_follow(grid, row, velocity, strides)
+    pushed = times(vector(strides, force, row), -dt)
     dpn = dot(dp, normal)
     given, state = impulse(kind, mu, mu_static, dp, normal, dpn, gap)
     for d in range(len(strides)):
@@ -126,7 +128,8 @@ def push(grid, row, velocity, normal, gap, kind, mu, mu_static, strides, dt, sta
             grid.saved[row, d] = momentum[row, d]
         elif stage == UPDATE:
             force[row, d] += given[d] / dt
-    work = work_of_friction(dp, given, normal, mass) if state == SLIDING else 0.0
+    rubbing = kind == FRICTIONAL and state != OPEN and stage == UPDATE
+    work = work_of_friction(dp, pushed, given, normal, mass) if rubbing else 0.0
     return state, work, given
 
 
