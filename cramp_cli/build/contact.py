@@ -10,15 +10,22 @@ from cramp_cli.state.groups import Groups
 
 def build_crack_laws(deck) -> ContactLaws:
     """Return the law of every crack."""
-    laws = [_numbers(deck.contact_of(crack)) for crack in deck.cracks]
+    laws = [_numbers(deck.contact_of(crack))[:3] for crack in deck.cracks]
     kind, mu, mu_static = (np.array([law[n] for law in laws], dtype=float) for n in range(3))
     return ContactLaws(kind.astype(np.int64), mu, mu_static)
 
 
-def _numbers(section) -> tuple[int, float, float]:
-    """Return kind, mu and mu_static of a law of a deck."""
+def _numbers(section) -> tuple[int, float, float, float, float]:
+    """Return kind, mu, mu_static, strength and shear strength of a law of a deck."""
     mu, static = getattr(section, "mu", 0.0), getattr(section, "mu_static", None)
-    return LAWS[section.law], mu, mu if static is None else static
+    pull, shear = getattr(section, "strength", 0.0), getattr(section, "shear_strength", None)
+    return (
+        LAWS[section.law],
+        mu,
+        mu if static is None else static,
+        pull,
+        pull if shear is None else shear,
+    )
 
 
 def build_groups(deck) -> Groups:
@@ -36,7 +43,7 @@ def build_body_contact(deck, events) -> BodyContact | None:
         return None
     group = dict(zip((b.name for b in deck.bodies), groups_of_bodies(deck), strict=True))
     names = names_of_groups(deck)
-    laws = np.empty((3, len(names), len(names)))
+    laws = np.empty((5, len(names), len(names)))
     laws[:] = np.array(_numbers(section.bodies))[:, None, None]
     for pair in section.pairs:
         a, b = (group[name] for name in pair.bodies)
@@ -51,5 +58,5 @@ def build_body_contact(deck, events) -> BodyContact | None:
         for n, b in enumerate(deck.bodies)
         if b.rigid
     )
-    tables = BodyLaws(laws[0].astype(np.int64), laws[1].copy(), laws[2].copy())
+    tables = BodyLaws(laws[0].astype(np.int64), *(table.copy() for table in laws[1:]))
     return BodyContact(tuple(names), tables, NORMALS[section.normal], rigid)

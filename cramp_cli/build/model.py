@@ -10,6 +10,7 @@ from cramp_cli.build.events import EventList
 from cramp_cli.build.growth import build_propagation
 from cramp_cli.build.laws import law_of
 from cramp_cli.build.surface import settled
+from cramp_cli.contact.adhesion import no_bonds
 from cramp_cli.cracks.tips import Fracture
 from cramp_cli.deck.deck import Deck, DeckError
 from cramp_cli.materials.geometry import Axisymmetric, PlaneStrain, PlaneStress, depth
@@ -99,6 +100,7 @@ def build(deck: Deck) -> tuple[Model, State]:
         contact_forces=np.zeros((len(between.names) if between else 0, len(lattice.cells))),
         bands=np.array(bands),
         growth=make_growth(paths),
+        bonds=no_bonds(),
         events=np.full(len(events.events), np.inf),
     )
 

@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from cramp_cli.contact.adhesion import bonds_of, recall_bonds
 from cramp_cli.contact.clouds import Clouds, clear_clouds, link_clouds, make_clouds
 from cramp_cli.contact.normals import find_normals, list_windows
 from cramp_cli.contact.pairs import Pairs, list_pairs, make_pairs
@@ -44,6 +45,8 @@ def find_pairs(model, state, scratch) -> None:
     lattice = (model.lattice.lower, model.lattice.width)
     how = (between.laws, between.normal, meeting.flat, lattice, model.strides)
     find_normals(*who, *how)
+    if between.adhesive:
+        recall_bonds(meeting.pairs, between.laws, state.bonds)
 
 
 def _meeting(model, scratch) -> Meeting:
@@ -79,18 +82,20 @@ def touch_bodies(model, state, scratch, stage) -> None:
     friction, external = touch_pairs(
         scratch.grid,
         meeting.pairs,
+        meeting.clouds,
         model.between_bodies.laws,
-        meeting.rigid,
-        meeting.velocity,
+        (meeting.rigid, meeting.velocity),
         share,
         state.contact_forces,
         model.strides,
-        model.dt,
+        (model.dt, model.lattice.width),
         stage,
     )
     if stage == UPDATE:
         state.books.friction[0] += friction
         state.books.external[0] += external
+        if model.between_bodies.adhesive:
+            state.bonds = bonds_of(meeting.pairs, model.between_bodies.laws)
 
 
 def share_increments(model, scratch, increment) -> None:

@@ -18,6 +18,7 @@ class Clouds(NamedTuple):
 
     head: np.ndarray  # (rows,) first entry of a row, or -1
     link: np.ndarray  # (listed * entries per line,) next entry of the same row, or -1
+    volume: np.ndarray  # (rows,) sum of V S, m^3
     slope: np.ndarray  # (rows, dim) sum of V grad S: the gradient of the volume (m^3 per cell)
 
 
@@ -28,6 +29,7 @@ def make_clouds(rows: int, stencil) -> Clouds:
     return Clouds(
         head=np.full(rows, -1, dtype=np.int64),
         link=np.zeros(entries, dtype=np.int64),
+        volume=np.zeros(rows),
         slope=np.zeros((rows, dim)),
     )
 
@@ -40,7 +42,7 @@ def clear_clouds(clouds, rows):
         row = rows.shared[i]
         while row >= 0:
             clouds.head[row] = -1
-            clouds.slope[row, :] = 0.0
+            clouds.slope[row, :], clouds.volume[row] = 0.0, 0.0
             row = rows.first[row] if row < nodes else rows.next[row - nodes]
 
 
@@ -60,6 +62,8 @@ def link_clouds(clouds, rows, stencil, volume, shape, strides, lo, hi):
                 row, entry = stencil.table[line, e], line * per_line + e
                 link[entry], head[row] = head[row], entry
                 gradient = entry_gradient(stencil, strides, line, e, S, G)
+                w = stencil.share[line, e] * S[which[line, e]]
+                clouds.volume[row] += volume[p] * w
                 add(clouds.slope, row, volume[p], gradient)
 
 

@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from cramp_cli.cracks.contact import ADHESIVE
 from cramp_cli.state.signal import Signal
 
 AVERAGE, LARGER, LOGISTIC = 0, 1, 2
@@ -14,9 +15,11 @@ NORMALS = {"average": AVERAGE, "larger": LARGER, "logistic": LOGISTIC}
 class BodyLaws(NamedTuple):
     """Law of every pair of contact groups; symmetric."""
 
-    kind: np.ndarray  # (groups, groups) IGNORE, FRICTIONAL, STICK or GLUED (cracks/contact.py)
+    kind: np.ndarray  # (groups, groups) IGNORE, FRICTIONAL ... (cracks/contact.py)
     mu: np.ndarray  # (groups, groups) coefficient of sliding friction
     mu_static: np.ndarray  # (groups, groups) coefficient of static friction, not below mu
+    strength: np.ndarray  # (groups, groups) of adhesion against pulling (Pa)
+    shear_strength: np.ndarray  # (groups, groups) of adhesion against shearing (Pa)
 
 
 @dataclass(frozen=True)
@@ -37,6 +40,11 @@ class BodyContact:
     laws: BodyLaws
     normal: int  # AVERAGE, LARGER or LOGISTIC
     rigid: tuple = ()  # of RigidBody
+
+    @property
+    def adhesive(self) -> bool:
+        """Whether any two bodies stick to each other: then the state keeps their bonds."""
+        return bool((self.laws.kind == ADHESIVE).any())
 
     def rigid_groups(self) -> np.ndarray:
         """Return for each contact group whether it is a rigid body, as 0 or 1."""

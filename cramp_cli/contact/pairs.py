@@ -21,6 +21,7 @@ class Pairs(NamedTuple):
     normal: np.ndarray  # (pairs, dim) unit vector from a to b
     gap: np.ndarray  # (pairs,) negative where the bodies overlap (m)
     state: np.ndarray  # (pairs,) OPEN, SLIDING or STUCK
+    bond: np.ndarray  # (pairs,) PARTED or JOINED, with the law `adhesive` (contact/adhesion.py)
     used: np.ndarray  # (1,) pairs in use, or wanted if there are more
     of_node: np.ndarray  # (nodes,) first pair of a node, or -1
 
@@ -36,6 +37,7 @@ def make_pairs(count: int, nodes: int, dim: int) -> Pairs:
         normal=np.zeros((count, dim)),
         gap=np.zeros(count),
         state=np.zeros(count, dtype=np.int64),
+        bond=np.zeros(count, dtype=np.int64),
         used=np.zeros(1, dtype=np.int64),
         of_node=np.full(nodes, -1, dtype=np.int64),
     )

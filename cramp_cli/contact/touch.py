@@ -7,12 +7,16 @@ All three passes of a step go by the separation at its start: a pair that touche
 alone would give the strain a velocity with which the bodies still approach.
 """
 
+from cramp_cli.contact.adhesion import adhere
 from cramp_cli.cracks.contact import (
+    ADHESIVE,
     FIRST,
+    FRICTIONAL,
     OPEN,
     SLIDING,
     UPDATE,
     impulse,
+    momentum_to_meet,
     share_between,
     touch_pair,
     work_of_friction,
@@ -29,15 +33,17 @@ SWEEPS = 10  # over the pairs of a node that has several
 
 
 @kernel
-def touch_pairs(grid, pairs, laws, rigid, velocity, share, forces, strides, dt, stage):
+def touch_pairs(grid, pairs, clouds, laws, bodies, share, forces, strides, step, stage):
     """Let all pairs touch, node by node; add the forces on the bodies in the update of momenta.
 
-    rigid: (groups,) 1 for rigid bodies; velocity: (groups, dim) of these (m/s)
+    bodies: (groups,) 1 for rigid ones; (groups, dim) velocity of these (m/s)
+    step: its duration (s), the width of a cell (m)
     share: (nodes,) of a node's sums that are the bodies' own, less than 1 at symmetry planes
     forces: (groups, dim) of all others on the bodies of a group (N)
 
     returns: work of friction, and work of the rigid bodies on the others (J)
     """
+    (_, velocity), (dt, _) = bodies, step
     friction, external, first = 0.0, 0.0, 0
     while first < pairs.used[0]:
         last = first + 1
@@ -47,7 +53,7 @@ def touch_pairs(grid, pairs, laws, rigid, velocity, share, forces, strides, dt, 
         pairs.state[first:last] = OPEN
         for _ in range(1 if last == first + 1 else SWEEPS):
             for i in range(first, last):
-                work, given = touch_one(grid, pairs, i, laws, rigid, velocity, strides, dt, stage)
+                work, given = touch_one(grid, pairs, i, clouds, laws, bodies, strides, step, stage)
                 if stage == UPDATE:
                     ga, gb = pairs.group[i, 0], pairs.group[i, 1]
                     friction += own * work
@@ -60,12 +66,19 @@ def touch_pairs(grid, pairs, laws, rigid, velocity, share, forces, strides, dt, 
 
 
 @kernel
-def touch_one(grid, pairs, i, laws, rigid, velocity, strides, dt, stage):
+def touch_one(grid, pairs, i, clouds, laws, bodies, strides, step, stage):
     """Let pair i touch; return the work of friction (J) and the momentum that row a got."""
     a, b, ga, gb = pairs.row[i, 0], pairs.row[i, 1], pairs.group[i, 0], pairs.group[i, 1]
-    law = (laws.kind[ga, gb], laws.mu[ga, gb], laws.mu_static[ga, gb])
+    (rigid, velocity), (dt, width) = bodies, step
     n, gap = vector(strides, pairs.normal, i), pairs.gap[i]
     state, work, given = OPEN, 0.0, times(n, 0.0)
+    if grid.mass[a] <= 0.0 and not rigid[ga] or grid.mass[b] <= 0.0 and not rigid[gb]:
+        return work, given
+    kind = laws.kind[ga, gb]
+    if kind == ADHESIVE:
+        dp, towards = momentum_wanted(grid, pairs, i, bodies, strides)
+        kind = adhere(pairs, i, laws, clouds, dp, towards, width, dt, stage)
+    law = (kind, laws.mu[ga, gb], laws.mu_static[ga, gb])
     if rigid[gb]:
         v = vector(strides, velocity, gb)
         state, work, given = push(grid, a, v, n, gap, *law, strides, dt, stage)
@@ -73,10 +86,29 @@ def touch_one(grid, pairs, i, laws, rigid, velocity, strides, dt, stage):
         v = vector(strides, velocity, ga)
         state, work, given = push(grid, b, v, times(n, -1.0), gap, *law, strides, dt, stage)
         given = times(given, -1.0)
-    elif grid.mass[a] > 0.0 and grid.mass[b] > 0.0:
+    else:
         state, work, given = touch_pair(grid, a, b, n, gap, *law, strides, dt, stage)
     pairs.state[i] = max(pairs.state[i], state)
     return work, given
+
+
+@kernel
+def momentum_wanted(grid, pairs, i, bodies, strides):
+    """Return the momentum that brings pair i to one velocity, and the normal from who gets it."""
+    a, b, ga, gb = pairs.row[i, 0], pairs.row[i, 1], pairs.group[i, 0], pairs.group[i, 1]
+    (rigid, velocity), n = bodies, vector(strides, pairs.normal, i)
+    if rigid[gb]:
+        return momentum_to_follow(grid, a, vector(strides, velocity, gb), strides), n
+    if rigid[ga]:
+        follow = momentum_to_follow(grid, b, vector(strides, velocity, ga), strides)
+        return follow, times(n, -1.0)
+    return momentum_to_meet(grid, a, b, strides, grid.momentum), n
+
+
+@kernel
+def momentum_to_follow(grid, row, velocity, strides):
+    """Return the momentum that a row needs to move with a velocity (m/s)."""
+    return plus(times(velocity, grid.mass[row]), -1.0, vector(strides, grid.momentum, row))
 
 
 @kernel
@@ -86,10 +118,8 @@ def push(grid, row, velocity, normal, gap, kind, mu, mu_static, strides, dt, sta
     A rigid body is a partner of infinite mass. velocity: its own (m/s); normal: towards it
     """
     mass, momentum, force = grid.mass[row], grid.momentum, grid.force
-    p = vector(strides, momentum, row)
-    if mass <= 0.0:
-        return OPEN, 0.0, times(p, 0.0)
-    dp = plus(times(velocity, mass), -1.0, p)
+    dp = momentum_to_follow(grid, row, velocity, strides)
+    pushed = times(vector(strides, force, row), -dt)
     dpn = dot(dp, normal)
     given, state = impulse(kind, mu, mu_static, dp, normal, dpn, gap)
     for d in range(len(strides)):
@@ -98,7 +128,8 @@ def push(grid, row, velocity, normal, gap, kind, mu, mu_static, strides, dt, sta
             grid.saved[row, d] = momentum[row, d]
         elif stage == UPDATE:
             force[row, d] += given[d] / dt
-    work = work_of_friction(dp, given, normal, mass) if state == SLIDING else 0.0
+    rubbing = kind == FRICTIONAL and state != OPEN and stage == UPDATE
+    work = work_of_friction(dp, pushed, given, normal, mass) if rubbing else 0.0
     return state, work, given
 
 

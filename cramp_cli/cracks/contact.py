@@ -15,8 +15,14 @@ from cramp_cli.numerics.vector import (
 )
 from cramp_cli.shapes.shape import offsets, weights
 
-IGNORE, FRICTIONAL, STICK, GLUED = 0, 1, 2, 3
-LAWS = {"ignore": IGNORE, "frictional": FRICTIONAL, "stick": STICK, "glued": GLUED}
+IGNORE, FRICTIONAL, STICK, GLUED, ADHESIVE = 0, 1, 2, 3, 4
+LAWS = {
+    "ignore": IGNORE,
+    "frictional": FRICTIONAL,
+    "stick": STICK,
+    "glued": GLUED,
+    "adhesive": ADHESIVE,  # of bodies alone: contact/adhesion.py
+}
 
 OPEN, SLIDING, STUCK = 0, 1, 2  # what a pair of rows does
 
@@ -94,6 +100,17 @@ def impulse(kind, mu, mu_static, dp, n, dpn, gap):
 
 
 @kernel
+def momentum_to_meet(grid, a, b, strides, momentum):
+    """Return the momentum that row a must get from row b so that both move alike.
+
+    momentum: (rows, dim); or the forces, for the force that gives both the same acceleration
+    """
+    ma, mb = grid.mass[a], grid.mass[b]
+    pa, pb = vector(strides, momentum, a), vector(strides, momentum, b)
+    return plus(times(pb, ma / (ma + mb)), -(mb / (ma + mb)), pa)
+
+
+@kernel
 def touch_pair(grid, a, b, normal, gap, kind, mu, mu_static, strides, dt, stage):
     """Let rows a (above) and b (below) touch.
 
@@ -101,10 +118,9 @@ def touch_pair(grid, a, b, normal, gap, kind, mu, mu_static, strides, dt, stage)
     """
     mass, momentum, saved, force = grid.mass, grid.momentum, grid.saved, grid.force
     ma, mb = mass[a], mass[b]
-    share_a, share_b = ma / (ma + mb), mb / (ma + mb)
-    reduced = ma * share_b
-    pa, pb = vector(strides, momentum, a), vector(strides, momentum, b)
-    dp = plus(times(pb, share_a), -share_b, pa)
+    reduced = ma * (mb / (ma + mb))
+    dp = momentum_to_meet(grid, a, b, strides, momentum)
+    pushed = times(momentum_to_meet(grid, a, b, strides, force), dt)
     dpn = dot(dp, normal)
     given, state = impulse(kind, mu, mu_static, dp, normal, dpn, gap)
     for d in range(len(strides)):
@@ -115,7 +131,8 @@ def touch_pair(grid, a, b, normal, gap, kind, mu, mu_static, strides, dt, stage)
         elif stage == UPDATE:
             force[a, d] += given[d] / dt
             force[b, d] -= given[d] / dt
-    work = work_of_friction(dp, given, normal, reduced) if state == SLIDING else 0.0
+    rubbing = kind == FRICTIONAL and state != OPEN and stage == UPDATE
+    work = work_of_friction(dp, pushed, given, normal, reduced) if rubbing else 0.0
     return state, work, given
 
 
@@ -132,10 +149,14 @@ def gap_ahead(grid, a, b, normal, gap, strides, dt):
 
 
 @kernel
-def work_of_friction(dp, given, normal, reduced):
-    """Return what friction takes (J): the tangential momentum given times the mean slip."""
+def work_of_friction(dp, pushed, given, normal, reduced):
+    """Return what friction takes (J): the tangential momentum given times the mean slip.
+
+    Mean of the slip at the start of the step, before the other forces have pushed the rows apart by
+    `pushed` (N s), and at its end: with the velocities of the two strain updates, as for tractions.
+    """
     tangential = plus(given, -dot(given, normal), normal)
-    slip = plus(plus(dp, -dot(dp, normal), normal), -0.5, tangential)
+    slip = plus(plus(dp, -0.5, pushed), -0.5, given)
     return dot(tangential, slip) / reduced
 
 

@@ -6,7 +6,7 @@ from typing import Literal
 from pydantic import Field
 
 from cramp_cli.schema.section import Name, Section, Wrong, one_of
-from cramp_cli.schema.units import Number
+from cramp_cli.schema.units import Number, Stress
 
 LAW = "kind of contact"
 
@@ -44,14 +44,26 @@ class Glued(Section):
     law: Literal["glued"] = Field("glued", description=LAW)
 
 
+class Adhesive(Section):
+    """Bodies that have touched move together until that takes more than a strength."""
+
+    law: Literal["adhesive"] = Field("adhesive", description=LAW)
+    strength: Stress = Field(gt=0, description="stress normal to the contact that pulls them apart")
+    shear_strength: Stress | None = Field(
+        None, gt=0, description="stress along it that does; `strength` if not given"
+    )
+    mu: Number = Field(0.0, ge=0, description="coefficient of friction once they have parted")
+
+
 AnyContact = one_of("law", Frictional, Ignore, Stick, Glued)
+BodyLaw = one_of("law", Frictional, Ignore, Stick, Glued, Adhesive)
 
 
 class PairContact(Section):
     """Contact of two bodies."""
 
     bodies: tuple[Name, Name] = Field(description="names of the two bodies")
-    contact: AnyContact = Field(description="their law")
+    contact: BodyLaw = Field(description="their law")
 
 
 class ContactSection(Section):
@@ -60,7 +72,7 @@ class ContactSection(Section):
     cracks: AnyContact = Field(
         default_factory=Frictional, description="the two faces of a crack, unless it says otherwise"
     )
-    bodies: AnyContact | None = Field(
+    bodies: BodyLaw | None = Field(
         None, description="any two bodies; if not given, bodies that meet are one solid"
     )
     groups: tuple[tuple[Name, ...], ...] = Field(

@@ -103,6 +103,7 @@ class State:
     contact_forces: np.ndarray  # (contact groups, dim) on their bodies in the last step (N)
     bands: np.ndarray  # (blocks, bands + 1) first particle of each band; those deleted come last
     growth: Growth
+    bonds: np.ndarray  # (n, 4) of bodies that stick to each other: contact/adhesion.py
     events: np.ndarray  # (events,) when each has happened (s), infinite before
 
 

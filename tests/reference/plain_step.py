@@ -278,9 +278,12 @@ def touch_pair(problem, crack, a, b, normal, when):
     given = dp
     if crack.law == "frictional" and slip > crack.mu_static * -dpn:
         given = [dpn * n[d] + crack.mu * -dpn * along[d] / slip for d in AXES]
-        if when == "update":
-            drag = crack.mu * -dpn
-            problem.friction += drag * (slip - 0.5 * drag) / reduced
+    if crack.law == "frictional" and when == "update":
+        rubbed = sum(given[d] * n[d] for d in AXES)
+        for d in AXES:
+            pushed = (a.m * b.f[d] - b.m * a.f[d]) / total * dt
+            mean = (dp[d] - 0.5 * pushed - 0.5 * given[d]) / reduced
+            problem.friction += (given[d] - rubbed * n[d]) * mean
     for row, sign in ((a, 1.0), (b, -1.0)):
         for d in AXES:
             row.p[d] += sign * given[d]
