@@ -67,10 +67,10 @@ class SolverSection(Section):
     """How the equations are solved in time."""
 
     end_time: Time = Field(gt=0, description="time at which the run ends")
-    shape: Literal["linear", "ugimp", "bspline2", "bspline3"] = Field(
+    shape: Literal["linear", "ugimp", "bspline2", "bspline3", "cpdi"] = Field(
         "ugimp",
-        description="shape functions between particles and grid: linear, uniform GIMP, or "
-        "B-splines of degree 2 or 3",
+        description="shape functions between particles and grid: linear, uniform GIMP, "
+        "B-splines of degree 2 or 3, or convected domains (CPDI) for large stretches",
     )
     tips: Literal["smooth", "sharp"] = Field(
         "smooth",

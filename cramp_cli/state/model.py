@@ -112,7 +112,7 @@ class Scratch:
     stencil: Stencil
     segments: Any
     team: Any  # the threads
-    report: np.ndarray  # (blocks, bands, 3) what locating the particles found
+    report: np.ndarray  # (blocks, bands, 4) what locating the particles found
     per_band: np.ndarray  # (bands,) sums over the particles of a band
     shared: list = field(default_factory=list)  # for each block: its particles, shared out
     index: np.ndarray | None = None  # (n,) where the particle of each number is
