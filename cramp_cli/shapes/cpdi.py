@@ -12,8 +12,8 @@ with half sides a = F (l_x, 0) and b = F (0, l_y), corners x_k = x + xi_k a + et
 -1 or 1. Neighbours have their corners in common as long as they are strained alike, so a solid may
 be stretched many times before gaps open in it.
 
-A ring weighs the gradient by the radius r, as the other shapes do (ring.py): the mean of a bilinear
-function with that weight has xi_k (1 + eta_k b_x / 3r) and eta_k (1 + xi_k a_x / 3r) in g_k.
+A ring weighs the slope along the radius r by it, as the other shapes do (ring.py): the mean of that
+of a bilinear function has xi_k (1 + eta_k b_x / 3r) and eta_k (1 + xi_k a_x / 3r) for xi_k, eta_k.
 """
 
 from math import floor, inf, sqrt
@@ -140,9 +140,8 @@ def slope_of(domain, xi, eta):
     """Return g_k of a corner (per cell)."""
     (ax, ay), (bx, by) = domain.a, domain.b
     per_area = SHARE / (ax * by - ay * bx)
-    along_a = xi * (1.0 + eta * domain.lean_b) * per_area
-    along_b = eta * (1.0 + xi * domain.lean_a) * per_area
-    return along_a * by - along_b * ay, along_b * ax - along_a * bx
+    along_r = xi * (1.0 + eta * domain.lean_b) * by - eta * (1.0 + xi * domain.lean_a) * ay
+    return along_r * per_area, (eta * ax - xi * bx) * per_area
 
 
 @inlined_kernel
