@@ -137,7 +137,10 @@ def test_values_and_gradients_are_means_over_the_domain(F, local):
 
 @given(F=strained, local=local)
 def test_slopes_of_rings_along_the_radius_are_means_weighed_by_it(F, local):
-    """Those along the axis are plain, as in ring.py. The axis is the line before the first node, so the radius is x + 1."""
+    """Those along the axis are plain, as in ring.py.
+
+    The axis is the line before the first node, so the radius is x + 1.
+    """
     ring = Ring(ConvectedDomain(HALF), HALF, 1, 7)
     p = whole(F, local, ring)
     plain, weighed = means(F, np.array(local))[1], means(F, np.array(local), local[0] + 1.0)[1]
