@@ -3,7 +3,7 @@
 Sadeghirad, Brannon and Burghardt (2011), A convected particle domain interpolation technique to
 extend applicability of the material point method for problems involving massive deformations. In a
 domain a grid function is taken to be bilinear between its values N_i at the four corners, so the
-mean of it over the domain (their eq. 26) and of its gradient (27) are
+means over the domain of it and of its gradient are
 
     S_i = sum_k N_i(x_k) / 4,    G_i = sum_k N_i(x_k) g_k,
     g_k = (xi_k (b_y, -b_x) + eta_k (-a_y, a_x)) / A,    A = 4 (a_x b_y - a_y b_x),

@@ -127,7 +127,7 @@ def test_a_constant_and_a_linear_field_are_exact(F, local):
 
 @given(F=strained, local=local)
 def test_values_and_gradients_are_means_over_the_domain(F, local):
-    """Sadeghirad et al. (2011), equations 26 and 27, by quadrature."""
+    """Sadeghirad et al. (2011): of functions bilinear between the corners, by quadrature."""
     p = whole(F, local)
     S, G = values(p)
     wanted_S, wanted_G = means(F, np.array(local))
