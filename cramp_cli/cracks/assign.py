@@ -13,7 +13,7 @@ from cramp_cli.cracks.rows import add_normal, join_row
 from cramp_cli.cracks.tip_nodes import cut_share
 from cramp_cli.cracks.tip_shares import far_share
 from cramp_cli.numerics.kernel import inlined_kernel, kernel
-from cramp_cli.shapes.shape import node_steps, offsets
+from cramp_cli.shapes.shape import node_steps, offsets, place_of, sees
 from cramp_cli.state.stencil import AROUND, CLOSE, FAR
 
 
@@ -21,7 +21,7 @@ from cramp_cli.state.stencil import AROUND, CLOSE, FAR
 def list_particles_near_cracks(stencil, bands, report, listed_capacity):
     """List the particles that must test for cracks, and those that may see nodes with several rows.
 
-    bands: (blocks, bands + 1) first particle of each band; report: (blocks, bands, 3) of `locate`
+    bands: (blocks, bands + 1) first particle of each band; report: (blocks, bands, 4) of `locate`
     returns: number of particles to list, larger than `listed_capacity` if the table is too short
     """
     near, listed, around = stencil.near, stencil.listed, stencil.around
@@ -144,6 +144,7 @@ def assign_rows(
             cell += int(np.floor(local[p, d])) * strides[d]
         i, j = first % nodes_along[0], first // strides[1]
         lowest = (lower[0] + width * i, lower[1] + width * j)
+        place = place_of(shape, strides, stencil, p)
         x, y = particles.position[p, 0], particles.position[p, 1]
         hidden = hidden_nodes(segments, cell, x, y, lowest, width, side, tolerance)
         if hidden == 0 and are_plain(rows, first, steps):
@@ -153,6 +154,8 @@ def assign_rows(
         x, y = off_crack(segments, cell, x, y, tolerance)
         known, cut, gx, gy = -1, 1.0, 0.0, 0.0
         for k in range(len(steps)):
+            if not sees(place, shape, k):
+                continue
             n = (lower[0] + width * (i + k % side), lower[1] + width * (j + k // side))
             node = first + steps[k]
             tip = rows.tip[node]

@@ -20,7 +20,7 @@ from cramp_cli.numerics.matrix import (
     zero_matrix,
 )
 from cramp_cli.numerics.vector import vector
-from cramp_cli.shapes.shape import offsets, weights
+from cramp_cli.shapes.shape import offsets, place_of, weights
 from cramp_cli.state.bands import band_axis, runs_between
 
 SEEN = 3  # rows of cells within which a particle may see a node
@@ -54,7 +54,7 @@ def sum_fields(sums, particles, stencil, shape, strides, box, nodes, lo, hi):
     must hold the rotation.
     """
     stress, volume, mass = particles.stress, particles.volume, particles.mass
-    base, local, near = stencil.base, stencil.local, stencil.near
+    base, near = stencil.base, stencil.near
     entries, which, table, share = stencil.entries, stencil.which, stencil.table, stencil.share
     steps = offsets(strides, shape)
     like = zero_matrix(strides)
@@ -63,7 +63,7 @@ def sum_fields(sums, particles, stencil, shape, strides, box, nodes, lo, hi):
         i, j = base[p] % strides[1] - box.i, base[p] // strides[1] - box.j
         if i < -3 or j < -3 or i >= box.wide or j >= box.high:
             continue
-        S = weights(vector(strides, local, p), shape)
+        S = weights(place_of(shape, strides, stencil, p), shape)
         F = matrix(like, particles.F, p)
         R = rotation_of(F)
         H = product(product(R, F), (R[0], R[2], R[1], R[3]))

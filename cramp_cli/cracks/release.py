@@ -13,7 +13,7 @@ from cramp_cli.cracks.cloud import started_around
 from cramp_cli.cracks.rows import find_row
 from cramp_cli.cracks.tip_nodes import FAR, along_crack
 from cramp_cli.numerics.kernel import kernel
-from cramp_cli.shapes.shape import offsets, weights
+from cramp_cli.shapes.shape import offsets, place_of, weights
 from cramp_cli.state.growth import running_tips
 
 HELD, FREE = 2.0, 3.0  # cells behind a tip up to where faces are resisted in full, and at all
@@ -113,7 +113,7 @@ def _to_rows(sums, stencil, mass, chosen, field, shape, strides):
     dim, steps = len(strides), offsets(strides, shape)
     for i in range(len(chosen)):
         p = chosen[i]
-        line, S = stencil.near[p], weights((stencil.local[p, 0], stencil.local[p, 1]), shape)
+        line, S = stencil.near[p], weights(place_of(shape, strides, stencil, p), shape)
         for e in range(len(steps) if line < 0 else stencil.entries[line]):
             row, w = _entry(stencil, line, e, stencil.base[p], steps, S)
             for d in range(dim):
@@ -127,7 +127,7 @@ def _from_rows(out, sums, stencil, chosen, shape, strides):
     dim, steps = len(strides), offsets(strides, shape)
     for i in range(len(chosen)):
         p = chosen[i]
-        line, S = stencil.near[p], weights((stencil.local[p, 0], stencil.local[p, 1]), shape)
+        line, S = stencil.near[p], weights(place_of(shape, strides, stencil, p), shape)
         out[i, :] = 0.0
         for e in range(len(steps) if line < 0 else stencil.entries[line]):
             row, w = _entry(stencil, line, e, stencil.base[p], steps, S)

@@ -45,6 +45,14 @@ def test_K_at_ten_cells(tip, line):
     assert found.status == "ok"
 
 
+def test_K_of_convected_domains():
+    """The bound of the other shapes; measured 0.9938, as with ugimp."""
+    found = intensity(10, 2, 3, "solver.shape=cpdi", "solver.strain=usavg-")
+    assert found.one == pytest.approx(1.0, abs=BOUNDS[10])
+    assert abs(found.two) < OF_K_II * found.one
+    assert found.status == "ok"
+
+
 @pytest.fixture(scope="module", params=[10, 20], ids=["10 cells", "20 cells"])
 def all_places(request):
     return request.param, table(request.param)

@@ -18,6 +18,7 @@ G, LAME = E / (2.0 + 2.0 * NU), E * NU / ((1.0 + NU) * (1.0 - 2.0 * NU))
 DURATION = 0.5  # s
 START = 1e-6  # s: displacement over time is the velocity at the start
 CELLS = (16, 32, 64)  # per metre
+BOTH = pytest.mark.parametrize("shape", ["ugimp", "cpdi"])
 
 
 class Constant:
@@ -74,12 +75,19 @@ class Vortex:
         return 1 - 32 * s**2 + 256 * s**4, -64 * s + 1024 * s**3, -64 + 3072 * s**2
 
 
-class FadingVortex(Vortex):
-    """The same ring with h = (1 - 16 s^2)^3: the force, too, vanishes at both edges."""
+class VortexWithin(Vortex):
+    """The same within a larger ring, its motion one degree smoother: h = (1 - 16 s^2)^3.
+
+    Neither a border nor the jump that the strain has there in its slope tells on the order.
+    """
+
+    body = {"type": "annulus", "center": [0, 0], "inner": 0.5, "outer": 1.5}
+    reach = (-1.5, 1.5)
 
     def profile(self, s):
-        b = 1 - 16 * s**2
-        return b**3, -96 * s * b**2, -96 * b**2 + 6144 * s**2 * b
+        """Return h and its derivatives; all are 0 outside 0.75 < R < 1.25."""
+        e = np.maximum(1 - 16 * s**2, 0.0)
+        return e**3, -96 * s * e**2, -96 * e**2 + 6144 * s**2 * e
 
 
 class VortexInPlate(Vortex):
@@ -175,28 +183,29 @@ def orders(case, shape="ugimp"):
     return np.log2(errors[:-1] / errors[1:]), errors[-1]
 
 
-def test_motion_along_axes_converges_with_the_square_of_the_cell():
-    """Cases E: 1.8. Measured 2.2 and 2.1.
+@BOTH
+def test_motion_along_axes_converges_with_the_square_of_the_cell(shape):
+    """Cases E: 1.8. Measured 2.2 and 2.1 with ugimp, 2.2 and 2.3 with cpdi.
 
     The motion is a thousandth: with a hundredth, particles change cells on the finest grid, and the
     quadrature of GIMP is no longer that of the start: 0.9 and 0.3.
     """
-    found, finest = orders(AlongAxes())
+    found, finest = orders(AlongAxes(), shape)
     assert finest < 2e-4
     assert found.min() > 1.8
 
 
-@pytest.mark.parametrize("shape", ["ugimp", "bspline2"])
-@pytest.mark.parametrize("case", [VortexInPlate, FadingVortex])
+@pytest.mark.parametrize("shape", ["ugimp", "bspline2", "cpdi"])
+@pytest.mark.parametrize("case", [VortexInPlate, VortexWithin])
 def test_vortex_converges(case, shape):
-    """Cases E ask for 1.5 over the three grids.
+    """Cases E: 1.5.
 
-    Measured 1.62 and 1.81 in the plate, 1.48 and 1.66 with the fading force; bspline2 above 1.9.
+    Measured in the plate 1.62 and 1.81 with ugimp; within a solid 1.57 and 1.76 with ugimp, 1.60
+    and 1.79 with cpdi.
     """
     found, finest = orders(case(), shape)
     assert finest < 5e-3
-    assert found.mean() > 1.5
-    assert found.min() > 1.4
+    assert found.min() > 1.5
 
 
 def test_vortex_whose_force_ends_in_stairs():
