@@ -262,7 +262,7 @@ def test_a_traction_acts_at_the_face_where_it_has_gone():
     model, state, scratch = strained_block(F)
     locate(model, state, scratch)
     clear(scratch.grid.force, scratch.row_count)
-    add_loads(model, scratch, 0.0)
+    add_loads(model, scratch, state)
     force = scratch.grid.force[: model.lattice.node_count]
     moments = force.T @ model.lattice.node_positions()
     np.testing.assert_allclose(moments, np.outer([0.06, 0.0], F @ [24.0, 3.0]), atol=1e-12)
