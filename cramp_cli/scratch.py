@@ -3,7 +3,7 @@
 import numpy as np
 
 from cramp_cli.cracks.cloud import list_origins
-from cramp_cli.cracks.crossing import make_segments
+from cramp_cli.cracks.segments import make_segments
 from cramp_cli.cracks.view import make_seen
 from cramp_cli.numerics.team import Team
 from cramp_cli.shapes.shape import has_domain, offsets

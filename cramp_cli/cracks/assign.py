@@ -7,9 +7,10 @@ goes to the row of its side, the rest to both sides (tip_shares.py).
 
 import numpy as np
 
-from cramp_cli.cracks.crossing import ON_CRACK, hidden_nodes, off_crack
+from cramp_cli.cracks.crossing import hidden_nodes, off_crack
 from cramp_cli.cracks.lines import NO_CRACK, cracks_between
 from cramp_cli.cracks.rows import add_normal, join_row
+from cramp_cli.cracks.segments import ON_CRACK
 from cramp_cli.cracks.tip_nodes import cut_share
 from cramp_cli.cracks.tip_shares import far_share
 from cramp_cli.numerics.kernel import inlined_kernel, kernel

@@ -11,7 +11,8 @@ the node has its one velocity: no motion is left that the particles hardly feel.
 for what is whole has such motions: the tip would creep under a constant load.)
 """
 
-from cramp_cli.cracks.crossing import ON_CRACK, double_area
+from cramp_cli.cracks.crossing import double_area
+from cramp_cli.cracks.segments import ON_CRACK
 from cramp_cli.cracks.tip_nodes import FAR, along_crack, cut_share
 from cramp_cli.numerics.kernel import inlined_kernel, kernel
 from cramp_cli.shapes.shape import offsets, place_of, sees, weights

@@ -15,13 +15,13 @@ import numpy as np
 from cramp_cli.cracks.cloud import Cloud, cloud_around
 from cramp_cli.cracks.contact import GLUED, IGNORE, OPEN
 from cramp_cli.cracks.contour_integral import along, integrate_contour
-from cramp_cli.cracks.crossing import ON_CRACK
 from cramp_cli.cracks.domain import LEAK, Values, domain_values, hooke_of
 from cramp_cli.cracks.domain_integral import Hooke, TipFrame, inner_radius, material_beside
 from cramp_cli.cracks.doubts import doubts
 from cramp_cli.cracks.face_terms import drawn, rubbed_off, zone_energy
 from cramp_cli.cracks.intensity import K_from_J, open_and_slide, opening_near_tip
 from cramp_cli.cracks.room import find_room, nearest_body
+from cramp_cli.cracks.segments import ON_CRACK
 from cramp_cli.materials.geometry import Axisymmetric, depth
 from cramp_cli.state.growth import BLEND, HELD, KINK, MIXED
 from cramp_cli.state.paths import TIP

@@ -9,9 +9,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from cramp_cli.cracks.crossing import ON_CRACK, crossed_cracks
+from cramp_cli.cracks.crossing import crossed_cracks
 from cramp_cli.cracks.lines import of_group
 from cramp_cli.cracks.rows import find_row, row_on_side
+from cramp_cli.cracks.segments import ON_CRACK
 from cramp_cli.numerics.kernel import inlined_kernel, kernel
 from cramp_cli.numerics.vector import dot
 

@@ -5,8 +5,8 @@ import pytest
 from support import build_deck, locate
 
 from cramp_cli.build.model import SHAPES as KINDS
-from cramp_cli.cracks.crossing import make_segments
 from cramp_cli.cracks.fields import find_openings
+from cramp_cli.cracks.segments import make_segments
 from cramp_cli.cracks.tip_nodes import cut_share
 from cramp_cli.shapes.shape import offsets, place_of, weights
 from cramp_cli.state.grid import make_grid
