@@ -220,9 +220,13 @@ def _recall_growth(model, state, scratch, tip, site):
     """A tip that has grown has the load that drove it in the last step (tip_load.py)."""
     k = 2 * tip.crack + tip.end
     J, K_I, K_II = state.growth.load[k].tolist()
-    remark = STAGES.get(int(state.growth.stage[k]), "")
+    remarks = [STAGES.get(int(state.growth.stage[k]), "")]
+    cells = state.growth.reach[k] / model.lattice.width
+    if cells < USUAL and not model.fracture.radii:
+        remarks.append(f"shrunk: a domain of {cells:.2g} cells")
     if state.growth.wall[k]:
-        remark = "; ".join(filter(None, [remark, "along an interface"]))
+        remarks.append("along an interface")
+    remark = "; ".join(filter(None, remarks))
     return _with_zone(model, state, tip, J) | {"K_I": K_I, "K_II": K_II}, remark
 
 
