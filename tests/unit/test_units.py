@@ -137,3 +137,13 @@ def test_pint_is_imported_only_for_units_that_it_has_not_told_before(tmp_path):
     (store,) = tmp_path.glob("units-*.json")
     store.write_text("{")
     assert imports_pint("2.4 mm", tmp_path) == (True, 0.0024)
+
+
+def test_the_example_of_every_quantity_can_be_read():
+    """That of a specific heat could not: brackets are no part of a unit here."""
+    kinds = [vars(units)[name] for name in dir(units)]
+    told = [one for kind in kinds for one in getattr(kind, "__metadata__", ())]
+    quantities = [one for one in told if isinstance(one, units.Quantity) and one.unit]
+    assert len(quantities) > 15
+    for quantity in quantities:
+        assert isinstance(quantity.number(quantity.example), float)
