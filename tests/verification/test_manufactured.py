@@ -190,8 +190,8 @@ def test_motion_along_axes_converges_with_the_square_of_the_cell():
 def test_vortex_converges(case, shape):
     """Cases E ask for 1.5 over the three grids.
 
-    Measured 1.62 and 1.81 in the plate, 1.48 and 1.66 with the fading force, there with bspline2 1.92 and
-    1.99.
+    Measured 1.62 and 1.81 in the plate, 1.48 and 1.66 with the fading force; there, with
+    bspline2, 1.92 and 1.99.
     """
     found, finest = orders(case(), shape)
     assert finest < 5e-3
