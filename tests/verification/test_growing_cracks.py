@@ -72,6 +72,14 @@ def test_a_tip_says_that_its_domain_is_small(steps, status):
     assert row["status"].startswith(status)
 
 
+def test_a_sharp_tip_that_runs_is_doubtful():
+    model, state, scratch = build_deck(PLATE, solver={"tips": "sharp"})
+    for _ in range(20):
+        advance(model, state, scratch, 1)
+        grow(model, state, scratch)
+    assert "sharp tip leaves" in sample_tips(model, state, scratch)[0]["status"]
+
+
 def test_no_tractions_after_the_end():
     _, state, _ = run(180)
     assert state.growth.running.tolist() == [0, 0]
