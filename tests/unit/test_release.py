@@ -78,3 +78,17 @@ def test_momentum_is_kept_and_energy_falls():
     resist_opening(model, state, scratch)
     assert grid.momentum[:count].sum(axis=0) == pytest.approx(total, abs=1e-13)
     assert energy() < 0.999 * held
+
+
+def test_tractions_end_nearer_to_a_tip_with_a_small_domain():
+    """A domain of 5 cells: 3 cells behind the tip at x = 4.5; of 2.5 cells: 1.5 of them."""
+    model, state, scratch = opening("left", "right")
+    ends = []
+    for reach in (5.0, 2.5):
+        state.growth.reach[1] = reach
+        before = scratch.grid.momentum.copy()
+        resist_opening(model, state, scratch)
+        taken = np.abs(scratch.grid.momentum - before)[: model.lattice.node_count].max(axis=1)
+        scratch.grid.momentum[:] = before
+        ends.append(model.lattice.lower[0] + np.max(np.flatnonzero(taken) % model.strides[1]))
+    assert ends == [7.0, 5.0]  # the last nodes before 7.5 and 6

@@ -5,6 +5,7 @@ import pytest
 from support import advance, build_deck
 
 from cramp_cli.cracks.grow import grow
+from cramp_cli.cracks.tips import sample_tips
 from cramp_cli.state.failure import NumericalFailure
 from cramp_cli.state.paths import EDGE, PLAIN, TIP
 
@@ -57,6 +58,31 @@ def test_a_crack_ends_at_a_free_surface():
     assert [row["kind"] for row in events[-2:]] == ["growth", "edge"]
     assert 20.0 < events[-1]["x"] < 20.8
     assert state.growth.speed[1] == 0.0
+
+
+@pytest.mark.parametrize(("steps", "status"), [(60, "ok"), (100, "shrunk: a domain of ")])
+def test_a_tip_says_that_its_domain_is_small(steps, status):
+    """Within five cells of the edge at x = 20: some J of the tractions may be left out."""
+    model, state, scratch = build_deck(PLATE)
+    for _ in range(steps):
+        advance(model, state, scratch, 1)
+        grow(model, state, scratch)
+    (row,) = sample_tips(model, state, scratch)
+    assert (row["x"] > 16.0) == (status != "ok")
+    assert row["status"].startswith(status)
+
+
+def test_a_sharp_tip_that_runs_is_doubtful():
+    model, state, scratch = build_deck(PLATE, solver={"tips": "sharp"})
+    for _ in range(20):
+        advance(model, state, scratch, 1)
+        grow(model, state, scratch)
+    assert "sharp tip leaves" in sample_tips(model, state, scratch)[0]["status"]
+
+
+def test_no_tractions_after_the_end():
+    _, state, _ = run(180)
+    assert state.growth.running.tolist() == [0, 0]
 
 
 def test_a_crack_ends_on_another():
