@@ -25,6 +25,7 @@ BEHIND = 3.0  # cells behind a tip within which a node may see a particle that i
 LATERAL = 2.001
 LEAST = 1e-3  # a smaller cut or whole share is none: a row must not hold next to nothing
 EXTENSION = 3.0  # cells by which a tip is carried on to tell the sides ahead of it
+TIE = 1e-9  # a segment must be nearer by this share than one that is nearer to the tip
 
 
 @kernel
@@ -34,7 +35,9 @@ def along_crack(point, first, last, tip, x, y, far):
     Only that part of the crack counts that is less than `far` (m) from the tip, along the crack.
 
     Behind the tip the first distance is negative and counts along the crack. Further: the segment
-    that is nearest, counted from the first, and its unit vector towards the tip.
+    that is nearest, counted from the first, and its unit vector towards the tip. Places around the
+    outside of a corner are as near to either of its segments: they belong to that towards the tip,
+    or round-off would choose.
 
     first, last: points of the crack; tip: the one of both that is the tip
     """
@@ -49,7 +52,7 @@ def along_crack(point, first, last, tip, x, y, far):
         t = ((x - ax) * dx + (y - ay) * dy) / (size * size)
         t = min(t, 1.0) if k == tip else min(max(t, 0.0), 1.0)
         away = sqrt((x - ax - t * dx) ** 2 + (y - ay - t * dy) ** 2)
-        if away < nearest:
+        if away < (1.0 - TIE) * nearest:
             nearest, ahead = away, -(travelled + t * size)
             segment = (k if step == 1 else k - 1) - first
             ex, ey = -dx / size, -dy / size
