@@ -41,7 +41,7 @@ SHAPES = {
 RAMP = 1.0  # cells of a crack over which a smooth tip fades
 # Cells ahead of a smooth tip at which the first particles feel it: K of centre and edge cracks with
 # ten cells is right within 0.3 % on average over a cell, for two to four particles along a cell.
-FRONT = 0.37
+FRONT = 0.35
 ENDS = {"plain": PLAIN, "edge": EDGE, "tip": TIP}
 RIGID = ""  # stands for the material of rigid bodies
 ON_PLANE = 1e-6  # cells
