@@ -12,7 +12,7 @@ from unit.test_tips import PLATE, inner, pieces, rectangle, sampled
 
 from cramp_cli.cracks.contact import SLIDING
 from cramp_cli.cracks.tips import sample_tips
-from cramp_cli.state.growth import BLEND, HELD, KINK, MIXED
+from cramp_cli.state.growth import BLEND, HELD, KINK, MIXED, OWN
 from cramp_cli.state.particles import DISSIPATED
 
 PAGE = Path(__file__).resolve().parents[2] / "docs/theory/fracture.md"
@@ -129,12 +129,12 @@ def both_modes(p, growth):
     works(p, growth)
 
 
-def grown(stage, J=1.0, wall=0.0, speed=0.0):
+def grown(stage, J=1.0, wall=0.0, speed=0.0, reach=5.0):
     """Return what marks the tip as one that has grown, with the load found at that stage."""
 
     def mark(p, growth):
         growth.length[1], growth.stage[1], growth.wall[1], growth.speed[1] = 1.0, stage, wall, speed
-        growth.load[1] = J, 1.0, 0.0
+        growth.load[1], growth.reach[1] = (J, 1.0, 0.0), reach
 
     return mark
 
@@ -161,6 +161,10 @@ FIELDS = {
     "growth in two materials": (
         grown(MIXED), {}, "corrected: the domain holds another material"),
     "growth along an interface": (grown(MIXED, wall=1.0), {}, "along an interface"),
+    "a tip near an edge": (grown(OWN, reach=2.5), {}, "shrunk: a domain of 2.5 cells"),
+    "a sharp tip that runs": (
+        grown(OWN, speed=0.1), {"solver": {"end_time": 1, "tips": "sharp"}},
+        "doubtful: a sharp tip leaves in the solid what it releases"),
     "energy out of a tip": (grown(HELD, J=-1.0, speed=0.1), {}, "doubtful: J is negative"),
 }  # fmt: skip
 
