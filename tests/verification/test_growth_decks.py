@@ -86,7 +86,9 @@ def test_wing_cracks_run_to_the_loads(piece):
 @pytest.mark.parametrize("cell", [1.0, 0.5])  # mm
 def test_wings_of_the_middle_disk_run_to_its_neighbours(cell, piece):
     """Nairn and Guo 2005, Fig. 4: both ends within 5 % of R of the contacts, point-symmetric."""
-    run = run_input("five_disks", f"grid.cell={cell} mm", f"propagation.piece={piece * cell} mm")
+    settings = f"grid.cell={cell} mm", f"propagation.piece={piece * cell} mm"
+    # The last load found drives a tip without room for a domain: on a coarse grid a slow one.
+    run = run_input("five_disks", *settings, "solver.end_time=130 us")
     ends = [row for row in run.growth if row["kind"] == "edge"]
     assert {row["tip"] for row in ends} == {"start", "end"}
     for row in ends:
