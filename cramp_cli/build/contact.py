@@ -3,6 +3,7 @@
 import numpy as np
 
 from cramp_cli.contact.laws import NORMALS, BodyContact, BodyLaws, RigidBody
+from cramp_cli.contact.outline import Outlines, make_outlines
 from cramp_cli.cracks.contact import LAWS, ContactLaws
 from cramp_cli.deck.contact_groups import group_of_crack, groups_of_bodies, names_of_groups
 from cramp_cli.state.groups import Groups
@@ -59,4 +60,20 @@ def build_body_contact(deck, events) -> BodyContact | None:
         if b.rigid
     )
     tables = BodyLaws(laws[0].astype(np.int64), *(table.copy() for table in laws[1:]))
-    return BodyContact(tuple(names), tables, NORMALS[section.normal], rigid)
+    outlines = _outlines(deck, group, names)
+    return BodyContact(tuple(names), tables, NORMALS[section.normal], outlines, rigid)
+
+
+def _outlines(deck, group, names) -> Outlines:
+    """Return the outlines of all rigid bodies, by contact group, with the bodies at their left."""
+    from shapely import get_parts
+    from shapely.geometry.polygon import orient
+
+    pieces = [np.zeros((0, 4))] * len(names)
+    for body in deck.bodies:
+        if body.rigid:
+            parts = [orient(part) for part in get_parts(body.shape.outline())]
+            rings = [np.array(r.coords) for p in parts for r in (p.exterior, *p.interiors)]
+            ends = [np.hstack([ring[:-1], ring[1:]]) for ring in rings]
+            pieces[group[body.name]] = np.concatenate(ends)
+    return make_outlines(pieces)

@@ -5,11 +5,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from cramp_cli.contact.outline import Outlines
 from cramp_cli.cracks.contact import ADHESIVE
 from cramp_cli.state.signal import Signal
 
-AVERAGE, LARGER, LOGISTIC = 0, 1, 2
-NORMALS = {"average": AVERAGE, "larger": LARGER, "logistic": LOGISTIC}
+AVERAGE, LARGER, LOGISTIC, OUTLINE = 0, 1, 2, 3
+NORMALS = {"average": AVERAGE, "larger": LARGER, "logistic": LOGISTIC, "outline": OUTLINE}
 
 
 class BodyLaws(NamedTuple):
@@ -38,7 +39,8 @@ class BodyContact:
 
     names: tuple  # of the contact groups, for their forces
     laws: BodyLaws
-    normal: int  # AVERAGE, LARGER or LOGISTIC
+    normal: int  # AVERAGE, LARGER, LOGISTIC or OUTLINE
+    outlines: Outlines
     rigid: tuple = ()  # of RigidBody
 
     @property
@@ -51,6 +53,14 @@ class BodyContact:
         flags = np.zeros(len(self.names), dtype=np.int64)
         flags[[one.group for one in self.rigid]] = 1
         return flags
+
+    def rigid_ways(self, particles) -> np.ndarray:
+        """Return how far every contact group has gone (groups, dim), zero where it is not rigid."""
+        ways = np.zeros((len(self.names), particles.position.shape[1]))
+        for one in self.rigid:
+            p = np.argmax(particles.body == one.body)
+            ways[one.group] = particles.position[p] - particles.origin[p]
+        return ways
 
     def rigid_velocities(self, state, dim: int) -> np.ndarray:
         """Return the prescribed velocity of every contact group (m/s), zero where there is none."""

@@ -7,6 +7,7 @@ import pytest
 from support import advance, build_deck, locate, read
 
 from cramp_cli.contact.bodies import find_pairs
+from cramp_cli.contact.outline import make_outlines, outward_normal
 from cramp_cli.contact.pairs import group_of
 from cramp_cli.cracks.contact import OPEN
 from cramp_cli.numerics import team
@@ -87,6 +88,15 @@ def test_round_off_does_not_part_flush_faces():
             shape |= {key: [0.1 * x for x in shape[key]] for key in ("lower", "upper")}
         *_, scratch = met(a, b, grid={"cell": 0.1})
         assert (pairs_of(scratch).gap < 0.0).all()
+
+
+def test_a_rigid_body_has_the_normals_of_its_outline():
+    """Along a side, beyond a corner, and within: always outwards."""
+    box = np.array([[0, 0, 4, 0], [4, 0, 4, 2], [4, 2, 0, 2], [0, 2, 0, 0]], dtype=float)
+    outlines = make_outlines([np.zeros((0, 4)), box])
+    for place, wanted in {(2.0, 2.5): (0, 1), (2.0, 1.5): (0, 1), (4.5, 1.0): (1, 0)}.items():
+        assert outward_normal(outlines, 1, *place) == pytest.approx(wanted)
+    assert outward_normal(outlines, 1, 5.0, 3.0) == pytest.approx((0.5**0.5, 0.5**0.5))
 
 
 def turned_boxes(angle, contact):
