@@ -3,9 +3,10 @@
 import numpy as np
 
 from cramp_cli.cracks.cloud import list_origins
-from cramp_cli.cracks.crossing import make_segments
+from cramp_cli.cracks.segments import make_segments
+from cramp_cli.cracks.view import make_seen
 from cramp_cli.numerics.team import Team
-from cramp_cli.shapes.shape import offsets
+from cramp_cli.shapes.shape import has_domain, offsets
 from cramp_cli.state.grid import make_grid
 from cramp_cli.state.model import Scratch
 from cramp_cli.state.stencil import make_stencil
@@ -17,17 +18,19 @@ def make_scratch(model, state, threads: int = 1) -> Scratch:
     lattice, n = model.lattice, len(state.particles.mass)
     dim, bands = len(lattice.cells), state.bands.shape[1] - 1
     segment_count = max(len(state.paths.point) - state.paths.crack_count, 1)
-    per_particle = len(offsets(model.strides, model.blocks[0].shape))
+    shape = model.blocks[0].shape
+    per_particle = len(offsets(model.strides, shape))
     listed = min(n, 40 * segment_count + 64)
     grid, rows = make_grid(lattice.node_count, dim, 16 * segment_count + 64)
     scratch = Scratch(
         grid=grid,
         rows=rows,
-        stencil=make_stencil(n, dim, per_particle, listed),
+        stencil=make_stencil(n, dim, per_particle, listed, domains=has_domain(shape)),
         segments=make_segments(lattice.node_count, segment_count, 24 * segment_count + 64),
         team=Team(threads, n),
-        report=np.zeros((len(model.blocks), bands, 3), dtype=np.int64),
+        report=np.zeros((len(model.blocks), bands, 4), dtype=np.int64),
         per_band=np.zeros(bands),
+        seen=(make_seen(), make_seen()),
         origins=list_origins(lattice, state.particles),
     )
     share_particles(state, scratch)

@@ -13,6 +13,7 @@ from cramp_cli.cracks.fields import find_rows, list_cracks
 from cramp_cli.cracks.grow import blind_tips, grow
 from cramp_cli.cracks.tips import sample_tips
 from cramp_cli.energy_balance import Balance
+from cramp_cli.numerics.call import records_of_one_run
 from cramp_cli.output.summary import Summary
 from cramp_cli.scratch import make_scratch
 from cramp_cli.state.failure import NumericalFailure
@@ -50,7 +51,7 @@ def simulate(
     begin, first = perf_counter(), 0.0  # the first step may compile: no measure of the others
     reporter.start(model.end_time, deck.title or "run", _facts(model, state))
     run = _Run(deck, model, state, outputs, reporter, threads, keeper)
-    with run.dumped_if_it_fails():
+    with run.dumped_if_it_fails(), records_of_one_run():
         if remembered:
             run.recall(remembered)
         else:
@@ -112,6 +113,7 @@ class _Run:
         if self.state.step % HEALTH_EVERY == 0:
             check_health(self.model, self.state)
             self._tell_strange_rows()
+            self._tell_short_domains()
         self._write(self.history_due, self.tips_due, self.frame_due)
         if self.keeper:
             self.keeper.after_step(self.state, self.remember)
@@ -231,6 +233,13 @@ class _Run:
         if crowded:
             self._tell("crowded", f"{crowded} particle-node pairs cross more than two cracks")
 
+    def _tell_short_domains(self) -> None:
+        """Say once when particles of cpdi have become longer than their domains may be."""
+        short = int(self.scratch.report[:, :, 3].sum())
+        if short:
+            text = f"{short} particles are longer than two cells: their domains are shortened"
+            self._tell("short domains", text, "gaps may open; more particles_per_cell put it off")
+
     def _tell_remarks(self) -> None:
         """Pass on what the step has to say, but not without end."""
         remarks, told = self.scratch.remarks, self.remarks_told
@@ -241,10 +250,9 @@ class _Run:
             self.reporter.message("warning", "there are more of these; they are not told")
         remarks.clear()
 
-    def _tell(self, what, text) -> None:
+    def _tell(self, what, text, advice="a finer grid near the cracks would help") -> None:
         if what not in self.told:
             self.told.add(what)
-            advice = "a finer grid near the cracks would help"
             self.reporter.message("warning", f"step {self.state.step}: {text}; {advice}")
 
 

@@ -21,7 +21,8 @@ from cramp_cli.contact.bodies import find_pairs, move_rigid_bodies, touch_bodies
 from cramp_cli.cracks.cohesion import book_pressures, draw_faces
 from cramp_cli.cracks.contact import FIRST, LAST, UPDATE, touch
 from cramp_cli.cracks.fields import find_openings, find_rows, list_cracks, move_paths
-from cramp_cli.cracks.release import calm_running_tips, resist_opening
+from cramp_cli.cracks.release import resist_opening
+from cramp_cli.cracks.tip_filter import calm_running_tips, leave_to_tips, note_near_tips
 from cramp_cli.grid_velocity import find_strain_velocity, find_update_velocity
 from cramp_cli.transfer import sums
 from cramp_cli.transfer.on_grid import advance_momentum, find_acceleration, find_velocity
@@ -78,7 +79,9 @@ def step(model, state, scratch, watch) -> None:
 
     with watch("7 particles move"):
         find_update_velocity(model, state, scratch)
+        near = note_near_tips(model, state, scratch)
         sums.move(model, state, scratch)
+        leave_to_tips(model, state, near)
         move_rigid_bodies(model, state)
 
     with watch("8 cracks move"):
@@ -101,7 +104,7 @@ def step(model, state, scratch, watch) -> None:
         if model.scheme.after:
             find_strain_velocity(model, state, scratch)
             sums.strain(model, state, scratch, model.scheme.after)
-        calm_running_tips(model, state, scratch)
+        calm_running_tips(model, state, scratch, reflect_sum)
 
     state.time += dt
     state.step += 1

@@ -14,8 +14,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from cramp_cli.cracks.crossing import ON_CRACK, crosses
+from cramp_cli.cracks.crossing import crosses
 from cramp_cli.cracks.rows import find_row, row_across
+from cramp_cli.cracks.segments import ON_CRACK
 from cramp_cli.numerics.kernel import kernel
 
 

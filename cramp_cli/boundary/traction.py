@@ -8,13 +8,8 @@ from typing import NamedTuple
 import numpy as np
 
 from cramp_cli.numerics.kernel import kernel
-from cramp_cli.numerics.vector import (
-    dot,
-    plus,
-    times,
-    vector,
-)
-from cramp_cli.shapes.shape import offsets, point_weights
+from cramp_cli.numerics.vector import dot, times, vector
+from cramp_cli.shapes.shape import offsets, place_of, point_weights
 from cramp_cli.state.particles import DELETED
 from cramp_cli.transfer.rows import add
 
@@ -23,7 +18,7 @@ class Faces(NamedTuple):
     """Corners of loaded particle faces and the force that each carries under unit load."""
 
     particle: np.ndarray  # (n,) numbers of particles
-    corner: np.ndarray  # (n, dim) from the particle's centre, in cells
+    corner: np.ndarray  # (n, dim) from the particle's centre at the start, in cells
     force: np.ndarray  # (n, dim) traction times the corner's share of the face, N
 
 
@@ -35,14 +30,15 @@ def add_traction(field, stencil, index, faces, shape, strides, factor):
     particle, so its rows are the particle's.
     """
     particle, corner, load = faces.particle, faces.corner, faces.force
-    base, local, near = stencil.base, stencil.local, stencil.near
+    base, near = stencil.base, stencil.near
     entries, which, table, share = stencil.entries, stencil.which, stencil.table, stencil.share
     steps = offsets(strides, shape)
     for c in range(len(particle)):
         p = index[particle[c]]
         if p == DELETED:
             continue
-        S = point_weights(plus(vector(strides, local, p), 1.0, vector(strides, corner, c)), shape)
+        place = place_of(shape, strides, stencil, p)
+        S = point_weights(place, shape, vector(strides, corner, c))
         f = times(vector(strides, load, c), factor)
         first, line = base[p], near[p]
         if line < 0:
@@ -57,7 +53,7 @@ def add_traction(field, stencil, index, faces, shape, strides, factor):
 def traction_power(grid, stencil, index, faces, shape, strides):
     """Return the power of the face forces under unit load with the momenta of the grid (W)."""
     particle, corner, load = faces.particle, faces.corner, faces.force
-    base, local, near = stencil.base, stencil.local, stencil.near
+    base, near = stencil.base, stencil.near
     entries, which, table, share = stencil.entries, stencil.which, stencil.table, stencil.share
     steps = offsets(strides, shape)
     power = 0.0
@@ -65,7 +61,8 @@ def traction_power(grid, stencil, index, faces, shape, strides):
         p = index[particle[c]]
         if p == DELETED:
             continue
-        S = point_weights(plus(vector(strides, local, p), 1.0, vector(strides, corner, c)), shape)
+        place = place_of(shape, strides, stencil, p)
+        S = point_weights(place, shape, vector(strides, corner, c))
         f = vector(strides, load, c)
         first, line = base[p], near[p]
         if line < 0:

@@ -17,6 +17,7 @@ from cramp_cli.materials.geometry import Axisymmetric, PlaneStrain, PlaneStress,
 from cramp_cli.materials.law import confined_modulus, memory
 from cramp_cli.shapes.bspline2 import QuadraticSpline
 from cramp_cli.shapes.bspline3 import CubicSpline
+from cramp_cli.shapes.cpdi import ConvectedDomain
 from cramp_cli.shapes.linear import Linear
 from cramp_cli.shapes.ring import Ring
 from cramp_cli.shapes.shape import is_ring
@@ -35,6 +36,7 @@ SHAPES = {
     "ugimp": UniformGimp,
     "bspline2": QuadraticSpline,
     "bspline3": CubicSpline,
+    "cpdi": ConvectedDomain,
 }
 RAMP = 1.0  # cells of a crack over which a smooth tip fades
 # Cells ahead of a smooth tip at which the first particles feel it: K of centre and edge cracks with

@@ -150,12 +150,14 @@ def plot(
 
 
 def report(
-    path: Run,
+    path: Annotated[
+        Path, typer.Argument(help="The folder of a run or of a sweep.", metavar="FOLDER")
+    ],
     output: Annotated[
-        Path | None, typer.Option("-o", "--output", help="The page [RUNDIR/report.html].")
+        Path | None, typer.Option("-o", "--output", help="The page [FOLDER/report.html].")
     ] = None,
 ):
-    """Write one HTML page about a run, to look at or send."""
-    from cramp_cli.study.report import report as write
+    """Write one HTML page about a run or a sweep, to look at or send."""
+    from cramp_cli.study.manage import report_folder
 
-    print(write(path, output or path / "report.html"))
+    print(report_folder(path, output))

@@ -103,17 +103,3 @@ def collect(
     from cramp_cli.study.manage import collect_study
 
     print(collect_study(study, output, table, wall_time))
-
-
-@sweep.command()
-def report(
-    study: Study,
-    output: Folder = None,
-    page: Annotated[
-        Path | None, typer.Option("--to", help="The page [<study>.sweep/report.html].")
-    ] = None,
-):
-    """Write one HTML page: a response plot and the table of cases."""
-    from cramp_cli.study.manage import report_study
-
-    print(report_study(study, output, page))

@@ -8,8 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from cramp_cli.numerics.kernel import inlined_kernel, kernel
-from cramp_cli.numerics.vector import vector
-from cramp_cli.shapes.shape import gradients, offsets, weights
+from cramp_cli.shapes.shape import gradients, offsets, place_of, weights
 from cramp_cli.transfer.rows import add, entry_gradient, first_line
 
 
@@ -54,7 +53,7 @@ def link_clouds(clouds, rows, stencil, volume, shape, strides, lo, hi):
     steps = offsets(strides, shape)
     for line in range(first_line(stencil, lo), first_line(stencil, hi)):
         p = stencil.listed[line]
-        place = vector(strides, stencil.local, p)
+        place = place_of(shape, strides, stencil, p)
         S, G = weights(place, shape), gradients(place, shape)
         for e in range(stencil.entries[line]):
             node = stencil.base[p] + steps[which[line, e]]

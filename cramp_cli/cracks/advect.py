@@ -1,12 +1,12 @@
 """Cracks move with the solid: each surface with the rows of its side, the plane with their mean."""
 
 from cramp_cli.cracks.view import look_from, side_normal
-from cramp_cli.numerics.kernel import kernel
+from cramp_cli.numerics.kernel import inlined_kernel, kernel
 
 LARGEST_STEP = 0.5  # a surface that would move further in one step (cells) stays
 
 
-@kernel
+@inlined_kernel
 def surface_motion(seen, count, total, grid):
     """Return the velocity and the acceleration of a surface that sees `count` rows."""
     velocity, acceleration = grid.velocity, grid.acceleration
@@ -20,7 +20,7 @@ def surface_motion(seen, count, total, grid):
     return (vx / total, vy / total), (ax / total, ay / total)
 
 
-@kernel
+@inlined_kernel
 def surface_step(surface, old, k, v, a, width, dt):
     """Move surface point k to second order; return whether it moved, and by how much."""
     dx = dt * (1.5 * v[0] - 0.5 * old[k, 0] - a[0] * dt)

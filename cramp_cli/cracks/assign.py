@@ -7,13 +7,14 @@ goes to the row of its side, the rest to both sides (tip_shares.py).
 
 import numpy as np
 
-from cramp_cli.cracks.crossing import HAIR, ON_CRACK, double_area, note_sides, off_crack
-from cramp_cli.cracks.lines import cracks_between
+from cramp_cli.cracks.crossing import hidden_nodes, off_crack
+from cramp_cli.cracks.lines import NO_CRACK, cracks_between
 from cramp_cli.cracks.rows import add_normal, join_row
+from cramp_cli.cracks.segments import ON_CRACK
 from cramp_cli.cracks.tip_nodes import cut_share
 from cramp_cli.cracks.tip_shares import far_share
 from cramp_cli.numerics.kernel import inlined_kernel, kernel
-from cramp_cli.shapes.shape import node_steps, offsets
+from cramp_cli.shapes.shape import node_steps, offsets, place_of, sees
 from cramp_cli.state.stencil import AROUND, CLOSE, FAR
 
 
@@ -21,7 +22,7 @@ from cramp_cli.state.stencil import AROUND, CLOSE, FAR
 def list_particles_near_cracks(stencil, bands, report, listed_capacity):
     """List the particles that must test for cracks, and those that may see nodes with several rows.
 
-    bands: (blocks, bands + 1) first particle of each band; report: (blocks, bands, 3) of `locate`
+    bands: (blocks, bands + 1) first particle of each band; report: (blocks, bands, 4) of `locate`
     returns: number of particles to list, larger than `listed_capacity` if the table is too short
     """
     near, listed, around = stencil.near, stencil.listed, stencil.around
@@ -102,38 +103,13 @@ def give_shares(stencil, rows, ends, line, k, node, group, crossed, cut, gx, gy)
 
 
 @inlined_kernel
-def box_is_cut(segments, cell, x, y, x0, y0, x1, y1, tolerance):
-    """Return whether a crack may pass between a point and the corners of a box, or touch one."""
-    ends, entry = segments.ends, segments.head[cell]
-    while entry >= 0:
-        s = segments.item[entry]
-        ax, ay, bx, by = ends[s, 0], ends[s, 1], ends[s, 2], ends[s, 3]
-        limit = 2.0 * HAIR / ON_CRACK * tolerance * (abs(bx - ax) + abs(by - ay))
-        areas = (
-            double_area(ax, ay, bx, by, x, y),
-            double_area(ax, ay, bx, by, x0, y0),
-            double_area(ax, ay, bx, by, x1, y0),
-            double_area(ax, ay, bx, by, x0, y1),
-            double_area(ax, ay, bx, by, x1, y1),
-        )
-        if min(areas) <= limit and max(areas) >= -limit:
-            return True
-        entry = segments.next[entry]
-    return False
-
-
-@inlined_kernel
-def is_plain(rows, segments, first, steps, cell, x, y, box, tolerance):
-    """Return whether a particle sees its nodes across no crack, none beside a tip, none shared.
-
-    first: its lowest node; box: lower and upper corner of the box of its nodes (m)
-    """
+def are_plain(rows, first, steps):
+    """Return whether no node of a particle is beside a tip or shared; first: the lowest of them."""
     for k in range(len(steps)):
         node = first + steps[k]
         if rows.tip[node] >= 0 or rows.lowest[node] < rows.highest[node]:
             return False
-    (x0, y0), (x1, y1) = box
-    return not box_is_cut(segments, cell, x, y, x0, y0, x1, y1, tolerance)
+    return True
 
 
 @kernel
@@ -168,22 +144,26 @@ def assign_rows(
         for d in range(len(strides)):
             cell += int(np.floor(local[p, d])) * strides[d]
         i, j = first % nodes_along[0], first // strides[1]
-        x0, y0 = lower[0] + width * i, lower[1] + width * j
-        box = (x0, y0), (x0 + width * (side - 1), y0 + width * (side - 1))
+        lowest = (lower[0] + width * i, lower[1] + width * j)
+        place = place_of(shape, strides, stencil, p)
         x, y = particles.position[p, 0], particles.position[p, 1]
-        if is_plain(rows, segments, first, steps, cell, x, y, box, tolerance):
+        hidden = hidden_nodes(segments, cell, x, y, lowest, width, side, tolerance)
+        if hidden == 0 and are_plain(rows, first, steps):
             stencil.near[p] = AROUND
             continue
         listed[line], stencil.near[p], stencil.entries[line] = p, line, 0
         x, y = off_crack(segments, cell, x, y, tolerance)
-        note_sides(segments, cell, x, y, tolerance)
         known, cut, gx, gy = -1, 1.0, 0.0, 0.0
         for k in range(len(steps)):
+            if not sees(place, shape, k):
+                continue
             n = (lower[0] + width * (i + k % side), lower[1] + width * (j + k // side))
             node = first + steps[k]
             tip = rows.tip[node]
             tip = -1 if tip >= 0 and of_crack[tip // 2] != group else tip
-            crossed = cracks_between(segments, cell, (x, y), n, tip, of_crack, group, tolerance)
+            crossed = NO_CRACK
+            if hidden >> k & 1:
+                crossed = cracks_between(segments, cell, (x, y), n, tip, of_crack, group, tolerance)
             if tip < 0:
                 give_row(stencil, rows, segments.ends, line, k, node, group, crossed)
                 continue

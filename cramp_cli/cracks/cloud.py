@@ -63,4 +63,9 @@ def cloud_around(model, state, scratch, place, radius: float, group: int = 0) ->
         chosen = chosen[model.groups.of_body[state.particles.body[chosen]] == group]
     edges = [np.searchsorted(chosen, (b.lo, b.hi)).tolist() for b in model.blocks]
     parts = tuple((b, lo, hi) for b, (lo, hi) in zip(model.blocks, edges, strict=True) if lo < hi)
-    return Cloud(Particles(*(array[chosen] for array in state.particles)), parts)
+    return Cloud(chosen_from(state.particles, chosen), parts)
+
+
+def chosen_from(particles, chosen) -> Particles:
+    """Return copies of some particles, by their places."""
+    return Particles(*(array.take(chosen, axis=0) for array in particles))

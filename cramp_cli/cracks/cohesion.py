@@ -13,7 +13,6 @@ import numpy as np
 from cramp_cli.cohesive.pressure import Pressure
 from cramp_cli.cracks.faces import lay_out_faces, pull_points, spread, sum_stored
 from cramp_cli.cracks.fields import cut_of_points, what_surfaces_see
-from cramp_cli.cracks.view import make_seen
 from cramp_cli.materials.law import confined_modulus
 
 
@@ -52,9 +51,8 @@ def draw_faces(model, state, scratch) -> None:
     for number, law in enumerate(model.cohesion.at(state.time)):
         pull_points(traction, paths, faces.normal, law, number, 0.5 * model.dt, True)
     force, mass, cut = scratch.grid.force, scratch.grid.mass, cut_of_points(model, paths)
-    see = (make_seen(), make_seen())
     where = (cut, mass, *what_surfaces_see(model, scratch))
-    spread(force, *see, traction, paths, faces, *where, model.geometry.thickness)
+    spread(force, *scratch.seen, traction, paths, faces, *where, model.geometry.thickness)
     scratch.parted = np.flatnonzero((before < 1.0) & (paths.damage >= 1.0))
     scratch.drawn = (traction, paths.above - paths.below)
 

@@ -13,7 +13,7 @@ from cramp_cli.numerics.vector import (
     times,
     vector,
 )
-from cramp_cli.shapes.shape import offsets, weights
+from cramp_cli.shapes.shape import offsets, place_of, weights
 
 IGNORE, FRICTIONAL, STICK, GLUED, ADHESIVE = 0, 1, 2, 3, 4
 LAWS = {
@@ -42,7 +42,7 @@ def sum_displacement(rows, particles, stencil, shape, strides, lo, hi):
     """Add mass-weighted displacement and position of particles lo..hi to rows of shared nodes."""
     first, displacement, place = rows.first, rows.displacement, rows.place
     x, X, m = particles.position, particles.origin, particles.mass
-    base, local, near = stencil.base, stencil.local, stencil.near
+    base, near = stencil.base, stencil.near
     entries, which, table, share = stencil.entries, stencil.which, stencil.table, stencil.share
     steps = offsets(strides, shape)
     for i in range(stencil.count[1]):
@@ -54,7 +54,7 @@ def sum_displacement(rows, particles, stencil, shape, strides, lo, hi):
             shared = shared or first[start + steps[k]] >= 0
         if not shared:
             continue
-        S = weights(vector(strides, local, p), shape)
+        S = weights(place_of(shape, strides, stencil, p), shape)
         count = len(steps) if line < 0 else entries[line]
         for e in range(count):
             k, row, w = e, start + steps[e % len(steps)], m[p]

@@ -9,31 +9,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from cramp_cli.cracks.crossing import ON_CRACK, crosses
+from cramp_cli.cracks.contour_sums import Box, area_term, sum_fields
+from cramp_cli.cracks.crossing import crosses
 from cramp_cli.cracks.rows import crossed_row
+from cramp_cli.cracks.segments import ON_CRACK
 from cramp_cli.materials.law import same_law
-from cramp_cli.numerics.kernel import kernel
-from cramp_cli.numerics.matrix import (
-    matrix,
-    product,
-    rotation_of,
-    zero_matrix,
-)
-from cramp_cli.numerics.vector import vector
-from cramp_cli.shapes.shape import offsets, weights
 from cramp_cli.state.bands import band_axis, runs_between
 
 SEEN = 3  # rows of cells within which a particle may see a node
+NEARLY = 1e-5  # cells by which boxes are widened before it is asked whether lines cross
 FULL = 0.75  # a contour node that sees less of a full cell lies at or beyond the edge of the body
-
-
-class Box(NamedTuple):
-    """Rectangle of nodes: corner and number of nodes along each axis."""
-
-    i: int
-    j: int
-    wide: int
-    high: int
 
 
 class Contour(NamedTuple):
@@ -42,74 +27,6 @@ class Contour(NamedTuple):
     Jx: float
     Jy: float
     trouble: str
-
-
-@kernel
-def sum_fields(sums, particles, stencil, shape, strides, box, nodes, lo, hi):
-    """Add mass-weighted fields of particles lo..hi to the rows of the nodes in a box.
-
-    sums: (box nodes + extra rows, 11): mass, du_x/dx, du_x/dy, du_y/dx, du_y/dy, stress xx, yy, xy,
-    energy density, kinetic energy density, and volume over mass. The gradient is R F R^T - 1: it
-    must hold the rotation.
-    """
-    stress, volume, mass = particles.stress, particles.volume, particles.mass
-    base, local, near = stencil.base, stencil.local, stencil.near
-    entries, which, table, share = stencil.entries, stencil.which, stencil.table, stencil.share
-    steps = offsets(strides, shape)
-    like = zero_matrix(strides)
-    inside = box.wide * box.high
-    for p in range(lo, hi):
-        i, j = base[p] % strides[1] - box.i, base[p] // strides[1] - box.j
-        if i < -3 or j < -3 or i >= box.wide or j >= box.high:
-            continue
-        S = weights(vector(strides, local, p), shape)
-        F = matrix(like, particles.F, p)
-        R = rotation_of(F)
-        H = product(product(R, F), (R[0], R[2], R[1], R[3]))
-        v = vector(strides, particles.velocity, p)
-        kinetic = 0.5 * mass[p] / volume[p] * (v[0] * v[0] + v[1] * v[1])
-        line = near[p]
-        count = len(steps) if line < 0 else entries[line]
-        for e in range(count):
-            k, row, w = e, base[p] + steps[e % len(steps)], mass[p]
-            if line >= 0:
-                k, row, w = which[line, e], table[line, e], mass[p] * share[line, e]
-            node = base[p] + steps[k]
-            i, j = node % strides[1] - box.i, node // strides[1] - box.j
-            if i < 0 or j < 0 or i >= box.wide or j >= box.high:
-                continue
-            to = i + j * box.wide if row < nodes else inside + row - nodes
-            w *= S[k]
-            sums[to, 0] += w
-            sums[to, 1] += w * (H[0] - 1.0)
-            sums[to, 2] += w * H[1]
-            sums[to, 3] += w * H[2]
-            sums[to, 4] += w * (H[3] - 1.0)
-            sums[to, 5] += w * stress[p, 0]
-            sums[to, 6] += w * stress[p, 1]
-            sums[to, 7] += w * stress[p, 3]
-            sums[to, 8] += w * particles.work[p]
-            sums[to, 9] += w * kinetic
-            sums[to, 10] += w * volume[p] / mass[p]
-
-
-@kernel
-def area_term(particles, gravity, lower, upper, lo, hi):
-    """Return sums over the particles in a rectangle: inertia along x, y (N), and volume (m^3)."""
-    x, v, a, m = particles.position, particles.velocity, particles.acceleration, particles.mass
-    F, L, volume = particles.F, particles.L, particles.volume
-    Ax, Ay, inside = 0.0, 0.0, 0.0
-    for p in range(lo, hi):
-        if x[p, 0] < lower[0] or x[p, 0] > upper[0] or x[p, 1] < lower[1] or x[p, 1] > upper[1]:
-            continue
-        f = (F[p, 0], F[p, 1], F[p, 2], F[p, 3])
-        R = rotation_of(f)
-        H = product(product(R, f), (R[0], R[2], R[1], R[3]))
-        ax, ay = a[p, 0] - gravity[0], a[p, 1] - gravity[1]
-        Ax += m[p] * (ax * (H[0] - 1.0) + ay * H[2] - v[p, 0] * L[p, 0] - v[p, 1] * L[p, 2])
-        Ay += m[p] * (ax * H[1] + ay * (H[3] - 1.0) - v[p, 0] * L[p, 1] - v[p, 1] * L[p, 3])
-        inside += volume[p] * (f[0] * f[3] - f[1] * f[2])
-    return Ax, Ay, inside
 
 
 def integrate_contour(model, state, scratch, crack, tip, block, gravity) -> Contour:
@@ -172,20 +89,24 @@ class _Walk:
             sum_fields(sums, state.particles, scratch.stencil, b.shape, *place, lo, hi)
         self.cell = model.lattice.width**2 * model.geometry.thickness
         self.volume, self.sums = sums[:, 10], sums[:, :10]
-        self.segments = self._segments_near()
+        self.segments = self._segments_on_way()
         self.crossings = 0
         self.other_cracks = 0
         self.other_bodies = 0
         self.empty = 0
 
-    def _segments_near(self):
-        """Return the segments of all cracks that may meet the contour."""
+    def _segments_on_way(self):
+        """Return the segments that may meet the contour: number, lower and upper corner."""
         box, lattice, used = self.box, self.model.lattice, int(self.scratch.segments.used[0])
         ends = self.scratch.segments.real[:used].reshape(used, 2, 2)
-        corner = np.array([[box.i - 1, box.j - 1], [box.i + box.wide, box.j + box.high]])
+        low, high = ends.min(axis=1), ends.max(axis=1)
+        corner = np.array([[box.i, box.j], [box.i + box.wide - 1, box.j + box.high - 1]])
         lower, upper = lattice.lower + lattice.width * corner
-        near = (ends.max(axis=1) >= lower) & (ends.min(axis=1) <= upper)
-        return np.flatnonzero(near.all(axis=1)).tolist()
+        hair = NEARLY * lattice.width
+        outside = ((high < lower - hair) | (low > upper + hair)).any(axis=1)
+        within = ((low > lower + hair) & (high < upper - hair)).all(axis=1)
+        on_way = np.flatnonzero(~outside & ~within)
+        return [(int(s), low[s].tolist(), high[s].tolist()) for s in on_way]
 
     def line_integral(self):
         """Return the line integrals of q_x and q_y, counter-clockwise."""
@@ -274,8 +195,13 @@ class _Walk:
         lattice, segments = self.model.lattice, self.scratch.segments
         p = [low + lattice.width * c for low, c in zip(lattice.lower, here, strict=True)]
         n = [low + lattice.width * c for low, c in zip(lattice.lower, there, strict=True)]
-        found = []
-        for s in self.segments:
+        found, hair = [], NEARLY * lattice.width
+        (x0, x1), (y0, y1) = sorted((p[0], n[0])), sorted((p[1], n[1]))
+        for s, low, high in self.segments:
+            if low[0] > x1 + hair or high[0] < x0 - hair:
+                continue
+            if low[1] > y1 + hair or high[1] < y0 - hair:
+                continue
             if crosses(segments.real, segments.down, s, *p, *n, ON_CRACK * lattice.width):
                 if segments.crack[s] == self.crack:
                     found.append(_fraction(p, n, segments.real[s]))

@@ -7,7 +7,7 @@ at R0 to 0 at R1 as a quintic: particles are a coarse quadrature, and a weight w
 put some percent of noise on K.
 """
 
-from math import pi, sqrt
+from math import atan2, pi, sqrt
 from typing import NamedTuple
 
 from cramp_cli.cracks.williams import unit_slope, unit_stress
@@ -23,6 +23,7 @@ class TipFrame(NamedTuple):
     origin: tuple  # tip in the undeformed body (m)
     before: tuple  # unit vector out of the crack in the undeformed body
     now: tuple  # the same now
+    line: float = 0.0  # height of the crack's line over the origin, in the axes of before (m)
 
 
 class Hooke(NamedTuple):
@@ -140,14 +141,33 @@ def seen_from_tip(X, frame, p, R0, R1):
 
     The weight is 0 outside the domain and at the tip itself, where the asymptotic fields are
     infinite.
+
+    returns: distance (m) and angle (rad), weight and its derivatives ahead and to the left (1/m)
     """
     dX, dY = X[p, 0] - frame.origin[0], X[p, 1] - frame.origin[1]
     r = sqrt(dX * dX + dY * dY)
     x, y = local_vector(frame.before, dX, dY)
     if r >= R1 or r < 1e-9 * R1:
-        return x, y, 0.0, 0.0, 0.0
+        return r, 0.0, 0.0, 0.0, 0.0
     q, slope = weight(r, R0, R1)
-    return x, y, q, slope * x / r, slope * y / r
+    return r, angle_of_side(x, y, frame.line), q, slope * x / r, slope * y / r
+
+
+@inlined_kernel
+def angle_of_side(x, y, line):
+    """Return the angle at which a place is seen from the tip by the side of the crack it is on.
+
+    Behind the tip that is the side of the line of the crack, which may lie above or below the
+    origin of the frame (`between_particles` in tips.py): with the field of the other face a single
+    particle between the two would be an error of a percent.
+    """
+    angle = atan2(y, x)
+    if x < 0.0:
+        if y > line and angle < 0.0:
+            return angle + 2.0 * pi
+        if y <= line and angle > 0.0:
+            return angle - 2.0 * pi
+    return angle
 
 
 @inlined_kernel
@@ -175,7 +195,7 @@ def integrate_domain(particles, frame, hooke, gravity, R0, R1, lo, hi):
     acceleration = particles.acceleration
     J, I1, I2, filled = 0.0, 0.0, 0.0, 0.0
     for p in range(lo, hi):
-        x, y, q, qx, qy = seen_from_tip(X, frame, p, R0, R1)
+        r, angle, q, qx, qy = seen_from_tip(X, frame, p, R0, R1)
         if q == 0.0:
             continue
         V = volume[p]
@@ -189,8 +209,8 @@ def integrate_domain(particles, frame, hooke, gravity, R0, R1, lo, hi):
         J += V * ((pxx * hxx + pyx * hyx - work[p]) * qx + (pxy * hxx + pyy * hyx) * qy)
         J += V * inertia * (ax * hxx + ay * hyx)
         for mode in (1, 2):
-            sxx, syy, sxy = unit_stress(mode, x, y)
-            ux, uy = unit_slope(mode, x, y, hooke.shear, hooke.kappa)
+            sxx, syy, sxy = unit_stress(mode, r, angle)
+            ux, uy = unit_slope(mode, r, angle, hooke.shear, hooke.kappa)
             mean = hooke.plane_nu * (sxx + syy)
             both = (txx * (sxx - mean) + tyy * (syy - mean) + 2.0 * txy * sxy) / (2.0 * hooke.shear)
             integral = V * (

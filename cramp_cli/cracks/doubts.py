@@ -8,10 +8,11 @@ from math import isnan, pi, sqrt
 
 import numpy as np
 
+from cramp_cli.cracks.cloud import chosen_from
 from cramp_cli.materials.geometry import Axisymmetric
 from cramp_cli.materials.law import confined_modulus
 from cramp_cli.state.measures import from_history
-from cramp_cli.state.particles import DISSIPATED, Particles
+from cramp_cli.state.particles import DISSIPATED
 
 AROUND = 5.0  # cells around a tip that are looked at
 DIFFER = 0.2  # share by which two numbers for one J may differ
@@ -27,13 +28,13 @@ def doubts(model, site, row, moving: bool) -> list[str]:
 
     J of a running tip has the kinetic energy in it and is not that of K.
     """
-    origin = site.cloud.particles.origin
-    near = np.hypot(*(origin - site.frame.origin).T) < AROUND * model.lattice.width
-    particles = Particles(*(array[near] for array in site.cloud.particles))
+    away = np.hypot(*(site.cloud.particles.origin - site.frame.origin).T)
+    near = np.flatnonzero(away < AROUND * model.lattice.width)
+    particles = chosen_from(site.cloud.particles, near)
     found = [*_of_law(particles, site), *_of_rings(model, site, row)]
     if moving:
         return [*found, "doubtful: J is negative"] if row["J"] < 0.0 else found
-    if not near.any():
+    if not len(near):
         return found
     width, stiffness = model.lattice.width, site.hooke.stiffness
     energy = float(particles.work.mean()) + ROUND_OFF**2 * stiffness

@@ -5,7 +5,7 @@ Between steps, in plain numpy. The end itself is closed: both surfaces lie on it
 
 import numpy as np
 
-from cramp_cli.cracks.crossing import make_segments
+from cramp_cli.cracks.segments import make_segments
 from cramp_cli.state.paths import Paths
 
 FIELDS = (

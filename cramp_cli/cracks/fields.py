@@ -5,12 +5,11 @@ import numpy as np
 from cramp_cli.cracks.advect import move_cracks
 from cramp_cli.cracks.assign import assign_rows, list_particles_near_cracks
 from cramp_cli.cracks.contact import GLUED, sum_displacement
-from cramp_cli.cracks.crossing import list_segments, make_segments
 from cramp_cli.cracks.meetings import list_meeting_particles, mark_groups
 from cramp_cli.cracks.rows import clear_shared, forget_rows
+from cramp_cli.cracks.segments import list_segments, make_segments
 from cramp_cli.cracks.tip_nodes import EXTENSION, cut_along_cracks, mark_tip_nodes
 from cramp_cli.cracks.tip_shares import see_image, sum_sides
-from cramp_cli.cracks.view import make_seen
 from cramp_cli.shapes.shape import support
 from cramp_cli.state.grid import make_grid
 from cramp_cli.state.stencil import make_lists
@@ -121,7 +120,7 @@ def move_paths(model, state, scratch) -> None:
     """Move all cracks with the solid."""
     paths = state.paths
     cut, where = cut_of_points(model, paths), what_surfaces_see(model, scratch)
-    move_cracks(make_seen(), paths, cut, scratch.grid, *where, model.dt)
+    move_cracks(scratch.seen[0], paths, cut, scratch.grid, *where, model.dt)
 
 
 def what_surfaces_see(model, scratch) -> tuple:

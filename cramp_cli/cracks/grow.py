@@ -93,12 +93,12 @@ def _at_end(paths, tip) -> Tip:
 def _grow_tip(model, state, scratch, tip) -> list[dict]:
     growth, k = state.growth, line_of(tip)
     found = load_on(model, state, scratch, tip)
-    growth.load[k], growth.stage[k] = found[:3], found.stage
+    growth.load[k], growth.stage[k], growth.reach[k] = found[:3], found.stage, found.reach
     if found.stage != HELD:
         growth.unseen[k] = 0.0
     resistance = model.propagation.resistance.get(found.site.block.material)
     if resistance is None or found.stage == BLIND:
-        growth.speed[k] = 0.0
+        growth.speed[k], growth.running[k] = 0.0, 0
         return []
     load = _load_of(state.paths, tip, found)
     growth.speed[k] = _speed(model, state, tip, resistance, load)
@@ -181,7 +181,7 @@ def _run(model, state, scratch, tip, found, load, criterion) -> list[dict]:
 def _end(model, state, tip, what, kind) -> dict:
     """Make a tip an end that grows no more; return the row that tells of it."""
     state.paths.ends[tip.crack, tip.end] = what
-    state.growth.speed[line_of(tip)] = 0.0
+    state.growth.speed[line_of(tip)], state.growth.running[line_of(tip)] = 0.0, 0
     return _row(model, state, tip, kind)
 
 

@@ -3,7 +3,7 @@
 Those of the particle's own body; and a tip that has been carried on counts at its own nodes only.
 """
 
-from cramp_cli.cracks.crossing import crossed_cracks, crosses, off_crack, sees_past_all
+from cramp_cli.cracks.crossing import crossed_cracks, crosses, off_crack
 from cramp_cli.numerics.kernel import inlined_kernel
 
 NO_CRACK = (-1, 0, -1, -1, 0, -1, 0)  # what `crossed_cracks` says of a free line
@@ -13,12 +13,10 @@ NO_CRACK = (-1, 0, -1, -1, 0, -1, 0)  # what `crossed_cracks` says of a free lin
 def cracks_between(segments, cell, place, n, tip, of_crack, group, tolerance):
     """Return the cracks, as `crossed_cracks` does, that tell the row of a particle at a node.
 
-    place: that of the particle, off the cracks, of which `note_sides` has noted the sides
+    place: that of the particle, off the cracks
     n: place of the node (m); tip: that which the node is beside, or -1; group: of the particle
     """
     (x, y), (nx, ny) = place, n
-    if sees_past_all(segments, cell, nx, ny, tolerance):
-        return NO_CRACK
     own = tip // 2 if tip >= 0 else -1
     nx, ny = off_crack(segments, cell, nx, ny, tolerance)
     crossed = crossed_cracks(segments, cell, x, y, nx, ny, tolerance)

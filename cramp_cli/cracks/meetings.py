@@ -1,7 +1,7 @@
 """Nodes that several contact groups see: their particles are listed like those near cracks."""
 
 from cramp_cli.numerics.kernel import kernel
-from cramp_cli.shapes.shape import offsets
+from cramp_cli.shapes.shape import offsets, place_of, sees
 from cramp_cli.state.stencil import CLOSE, FAR
 
 
@@ -12,11 +12,12 @@ def mark_groups(rows, stencil, body, of_body, shape, strides):
     lowest[:], highest[:] = len(of_body), -1
     steps = offsets(strides, shape)
     for p in range(len(base)):
-        group = of_body[body[p]]
+        group, place = of_body[body[p]], place_of(shape, strides, stencil, p)
         for k in range(len(steps)):
-            node = base[p] + steps[k]
-            lowest[node] = min(lowest[node], group)
-            highest[node] = max(highest[node], group)
+            if sees(place, shape, k):
+                node = base[p] + steps[k]
+                lowest[node] = min(lowest[node], group)
+                highest[node] = max(highest[node], group)
 
 
 @kernel
@@ -27,10 +28,10 @@ def list_meeting_particles(rows, stencil, bands, report, shape, strides):
     for block in range(len(bands)):
         for band in range(bands.shape[1] - 1):
             for p in range(bands[block, band], bands[block, band + 1]):
-                meets = False
+                meets, place = False, place_of(shape, strides, stencil, p)
                 for k in range(len(steps)):
                     node = base[p] + steps[k]
-                    meets = meets or lowest[node] < highest[node]
+                    meets = meets or (lowest[node] < highest[node] and sees(place, shape, k))
                 if meets:
                     report[block, band, 2] += near[p] == FAR
                     near[p] = CLOSE

@@ -37,7 +37,7 @@ def find_row(rows, node, group, a, side_a, b, side_b):
     return -1
 
 
-@kernel
+@inlined_kernel
 def row_on_side(rows, node, group, crack, side, other, other_side):
     """Return the row of a side of a crack, on a side of another crack (-1 for none), or -1.
 

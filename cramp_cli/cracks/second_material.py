@@ -31,12 +31,12 @@ def add_difference(particles, frame, tip, other, R0, R1, lo, hi):
     X, stress, volume = particles.origin, particles.stress, particles.volume
     I1, I2 = 0.0, 0.0
     for p in range(lo, hi):
-        x, y, q, qx, _ = seen_from_tip(X, frame, p, R0, R1)
+        r, angle, q, qx, _ = seen_from_tip(X, frame, p, R0, R1)
         if q == 0.0:
             continue
         tau = local_stress(frame.now, stress, p)
         for mode in (1, 2):
-            s, ds = unit_stress(mode, x, y), unit_stress_slope(mode, x, y)
+            s, ds = unit_stress(mode, r, angle), unit_stress_slope(mode, r, angle)
             falling = (compliance(tip, tau, s) - compliance(other, tau, s)) * qx
             within = (compliance(tip, tau, ds) - compliance(other, tau, ds)) * q
             if mode == 1:

@@ -42,6 +42,7 @@ class TipLoad(NamedTuple):
     K_I: float  # Pa sqrt(m)
     K_II: float  # Pa sqrt(m)
     stage: int  # where it was found
+    reach: float  # radius of the domain (m)
     site: Any  # the place of the tip, with its axes of before and now
 
 
@@ -60,18 +61,20 @@ def load_on(model, state, scratch, tip: Tip) -> TipLoad:
     own = _own_load(model, state, scratch, tip, site, kink) if late > 0.0 else None
     old = _parent_load(model, state, scratch, tip, site, kink) if late < 1.0 else None
     if own is not None and old is not None:
-        blend = late * np.array(own[:3]) + (1.0 - late) * np.array(old)
-        return TipLoad(*blend.tolist(), BLEND, site)
+        J, K_I, K_II, reach = (late * np.array(own[1:]) + (1.0 - late) * np.array(old)).tolist()
+        return TipLoad(J, K_I, K_II, BLEND, reach, site)
     if own is not None:
-        return TipLoad(*own, site)
+        stage, *found, reach = own
+        return TipLoad(*found, stage, reach, site)
     if old is not None:
-        return TipLoad(*old, KINK, site)
+        *found, reach = old
+        return TipLoad(*found, KINK, reach, site)
     stage = BLIND if growth.stage[k] == BLIND else HELD
-    return TipLoad(*growth.load[k].tolist(), stage, site)
+    return TipLoad(*growth.load[k].tolist(), stage, float(growth.reach[k]), site)
 
 
 def _own_load(model, state, scratch, tip, site, kink):
-    """Return J, K_I, K_II of the tip's own domain and its stage, or None without room."""
+    """Return stage, J, K_I, K_II, radius of the tip's own domain, or None without room."""
     width, radii = model.lattice.width, model.fracture.radii
     room, _ = find_room(model, state.paths, tip, site.frame.origin, inf)
     straight, _ = find_room(model, state.paths, tip, site.frame.origin, MOST_BENT)
@@ -89,7 +92,7 @@ def _own_load(model, state, scratch, tip, site, kink):
                 K_I, K_II = 0.0, K_II - rubbed_off(model, site, tip.crack, inner, radius)
             found = (J, K_I, K_II, float(held[0]), mixed)
             load = _running_load(model, state, tip, site, radius, *found)
-            return (*load, MIXED if mixed else OWN)
+            return (MIXED if mixed else OWN, *load, radius)
         radius *= 0.9
     return None
 
@@ -111,7 +114,10 @@ def _running_load(model, state, tip, site, radius, J, K_I, K_II, held, mixed):
 
 
 def _parent_load(model, state, scratch, tip, site, kink):
-    """Return J, K_I, K_II at the end of a short kink, or None where the corner has no room."""
+    """Return J, K_I, K_II at the end of a short kink, and the radius around its corner.
+
+    None where the corner has no room.
+    """
     width, growth, k = model.lattice.width, state.growth, line_of(tip)
     before = tuple(growth.parent[k].tolist())
     corner = site_at(model, state, scratch, tip, growth.corner[k], before)
@@ -128,7 +134,7 @@ def _parent_load(model, state, scratch, tip, site, kink):
             (ax, ay), (bx, by) = before, growth.heading[k]
             phi = min(max(atan2(ax * by - ay * bx, ax * bx + ay * by), -LARGEST), LARGEST)
             k_I, k_II = kinked(K_I, K_II, phi)
-            return (k_I**2 + k_II**2) / site.hooke.stiffness, k_I, k_II
+            return (k_I**2 + k_II**2) / site.hooke.stiffness, k_I, k_II, radius
         radius *= 0.9
     return None
 

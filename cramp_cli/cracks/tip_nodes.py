@@ -12,7 +12,8 @@ from math import inf, sqrt
 
 import numpy as np
 
-from cramp_cli.cracks.crossing import ON_CRACK, double_area
+from cramp_cli.cracks.crossing import double_area
+from cramp_cli.cracks.segments import ON_CRACK
 from cramp_cli.numerics.kernel import kernel
 from cramp_cli.state.paths import TIP
 

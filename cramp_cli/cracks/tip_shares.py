@@ -11,11 +11,11 @@ the node has its one velocity: no motion is left that the particles hardly feel.
 for what is whole has such motions: the tip would creep under a constant load.)
 """
 
-from cramp_cli.cracks.crossing import ON_CRACK, double_area
+from cramp_cli.cracks.crossing import double_area
+from cramp_cli.cracks.segments import ON_CRACK
 from cramp_cli.cracks.tip_nodes import FAR, along_crack, cut_share
 from cramp_cli.numerics.kernel import inlined_kernel, kernel
-from cramp_cli.numerics.vector import vector
-from cramp_cli.shapes.shape import offsets, weights
+from cramp_cli.shapes.shape import offsets, place_of, sees, weights
 
 
 @inlined_kernel
@@ -41,10 +41,11 @@ def sum_sides(rows, stencil, paths, particles, of_body, of_crack, shape, strides
         if not beside:
             continue
         tip, known, side, cut = -1, -1, 0, 0.0
-        S = weights(vector(strides, stencil.local, p), shape)
+        place = place_of(shape, strides, stencil, p)
+        S = weights(place, shape)
         for k in range(len(steps)):
             node = stencil.base[p] + steps[k]
-            tip = rows.tip[node]
+            tip = rows.tip[node] if sees(place, shape, k) else -1
             if tip < 0 or of_crack[tip // 2] != of_body[body[p]]:
                 continue
             if tip != known:

@@ -15,13 +15,13 @@ import numpy as np
 from cramp_cli.cracks.cloud import Cloud, cloud_around
 from cramp_cli.cracks.contact import GLUED, IGNORE, OPEN
 from cramp_cli.cracks.contour_integral import along, integrate_contour
-from cramp_cli.cracks.crossing import ON_CRACK
 from cramp_cli.cracks.domain import LEAK, Values, domain_values, hooke_of
 from cramp_cli.cracks.domain_integral import Hooke, TipFrame, inner_radius, material_beside
 from cramp_cli.cracks.doubts import doubts
 from cramp_cli.cracks.face_terms import drawn, rubbed_off, zone_energy
 from cramp_cli.cracks.intensity import K_from_J, open_and_slide, opening_near_tip
 from cramp_cli.cracks.room import find_room, nearest_body
+from cramp_cli.cracks.segments import ON_CRACK
 from cramp_cli.materials.geometry import Axisymmetric, depth
 from cramp_cli.state.growth import BLEND, HELD, KINK, MIXED
 from cramp_cli.state.paths import TIP
@@ -187,9 +187,9 @@ def between_particles(model, cloud, frame, end) -> TipFrame:
     ]
     above, below = (sum(side) / (0.5 * length * thickness) for side in zip(*sides, strict=True))
     if abs(above + below - length) > LEAK * length:
-        return frame
+        return frame._replace(line=line)
     off, (ex, ey), (x, y) = 0.5 * (below - above), frame.before, frame.origin
-    return frame._replace(origin=(x - off * ey, y + off * ex))
+    return frame._replace(origin=(x - off * ey, y + off * ex), line=line - off)
 
 
 def block_at(model, cloud, place):
@@ -220,9 +220,13 @@ def _recall_growth(model, state, scratch, tip, site):
     """A tip that has grown has the load that drove it in the last step (tip_load.py)."""
     k = 2 * tip.crack + tip.end
     J, K_I, K_II = state.growth.load[k].tolist()
-    remark = STAGES.get(int(state.growth.stage[k]), "")
+    remarks = [STAGES.get(int(state.growth.stage[k]), "")]
+    cells = state.growth.reach[k] / model.lattice.width
+    if cells < USUAL and not model.fracture.radii:
+        remarks.append(f"shrunk: a domain of {cells:.2g} cells")
     if state.growth.wall[k]:
-        remark = "; ".join(filter(None, [remark, "along an interface"]))
+        remarks.append("along an interface")
+    remark = "; ".join(filter(None, remarks))
     return _with_zone(model, state, tip, J) | {"K_I": K_I, "K_II": K_II}, remark
 
 

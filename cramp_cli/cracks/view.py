@@ -9,10 +9,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from cramp_cli.cracks.crossing import ON_CRACK, crossed_cracks
+from cramp_cli.cracks.crossing import crossed_cracks
 from cramp_cli.cracks.lines import of_group
 from cramp_cli.cracks.rows import find_row, row_on_side
-from cramp_cli.numerics.kernel import kernel
+from cramp_cli.cracks.segments import ON_CRACK
+from cramp_cli.numerics.kernel import inlined_kernel, kernel
 from cramp_cli.numerics.vector import dot
 
 OFF_PLANE = 1e-4  # a surface looks at the nodes from this distance off the plane (cells)
@@ -83,7 +84,7 @@ def look_from(seen, even, paths, k, crack, side, normal, cut, mass, solid, place
     return count, weigh(seen, count, LIGHT * heaviest if even else inf)
 
 
-@kernel
+@inlined_kernel
 def cell_of(x, y, place):
     """Return the cell of a point, or the nearest one: steps along both axes."""
     cells, width, lower, _ = place
@@ -91,7 +92,7 @@ def cell_of(x, y, place):
     return min(max(i, 0), cells[0] - 1), min(max(j, 0), cells[1] - 1)
 
 
-@kernel
+@inlined_kernel
 def rows_of_surface(rows, crossed, of_crack, crack, side, node):
     """Return the rows of a node for one side of a crack and for the other, or -1.
 
@@ -112,7 +113,7 @@ def rows_of_surface(rows, crossed, of_crack, crack, side, node):
     return mine, facing if facing != mine else -1
 
 
-@kernel
+@inlined_kernel
 def is_told_by(rows, node, crack):
     """Return whether a crack tells rows of a node."""
     nodes = len(rows.first)
@@ -124,7 +125,7 @@ def is_told_by(rows, node, crack):
     return False
 
 
-@kernel
+@inlined_kernel
 def weigh(seen, count, enough):
     """Weigh rows by mass up to what is `enough` (kg); by all of it if that is infinite.
 

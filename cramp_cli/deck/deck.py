@@ -185,6 +185,10 @@ def _warnings(deck: Deck) -> Iterator[Wrong]:
         better = deck.solver.strain.replace("-", "+")
         message = f"may grow without bound with {deck.solver.update}; use '{better}'"
         yield ("solver", "strain"), f"'{deck.solver.strain}' {message} or a smaller cfl"
+    if deck.solver.tears_domains:
+        solver = f"{deck.solver.update} and {deck.solver.strain}"
+        message = f"'cpdi' may tear a solid that is drawn far out with {solver}"
+        yield ("solver", "shape"), f"{message}; use update: flip and strain: usavg-"
     for name, material in deck.materials.items():
         stiff = isinstance(material, Isotropic) and material.poisson > NEARLY_INCOMPRESSIBLE
         if deck.analysis == "plane_strain" and stiff:

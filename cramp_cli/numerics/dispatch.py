@@ -17,30 +17,41 @@ def generic(declaration):
     Bodies are added with ``@name.implement(RecordType)``. They take their arguments by position, so
     every body keeps the declared order.
     """
-    return _dispatched(
-        declaration, type, lambda numba_type: getattr(numba_type, "instance_class", None)
-    )
+    return _dispatched(declaration, lambda value: (type(value),), lambda t: (_record(t),))
 
 
 def by_length(declaration):
     """Turn a declaration into a function with one body per length of its first tuple.
 
     Bodies are added with ``@name.implement(length)``; the declaration itself serves all other
-    lengths.
+    lengths. A record may have a body of its own, ``@name.implement(RecordType)``.
     """
-    return _dispatched(declaration, len, len, default=declaration)
+    return _dispatched(
+        declaration,
+        lambda value: (type(value), len(value)),
+        lambda t: (_record(t), len(t)),
+        default=declaration,
+    )
 
 
-def _dispatched(declaration, key_of_value, key_of_type, default=None):
+def _record(numba_type):
+    """Return the class of a record that numba has told the type of, None for a plain tuple."""
+    return getattr(numba_type, "instance_class", None)
+
+
+def _dispatched(declaration, keys_of_value, keys_of_type, default=None):
     bodies = {}
+
+    def body(keys):
+        return next((bodies[key] for key in keys if key in bodies), default)
 
     @wraps(declaration)
     def call(first, *args):
-        return bodies.get(key_of_value(first), default)(first, *args)
+        return body(keys_of_value(first))(first, *args)
 
     @overload(call, strict=False, jit_options={"forceinline": True})
     def resolve(first, *args):
-        return bodies.get(key_of_type(first), default)
+        return body(keys_of_type(first))
 
     def implement(key):
         def add(body):

@@ -9,21 +9,30 @@ cost ten times the arithmetic wherever a helper is handed an array. One that doe
 compile.
 """
 
+from functools import partial
+
 import numba
 
 from cramp_cli.numerics.cache import cache_folder
+from cramp_cli.numerics.call import Kernel
 
 numba.config.CACHE_DIR = str(cache_folder())
 numba.config.SLP_VECTORIZE = 1  # x and y side by side in one register: a step is 6 % faster
 
 OPTIONS = {"cache": True, "error_model": "numpy", "nogil": True, "_nrt": False}
 
-kernel = numba.njit(**OPTIONS)
+
+def _decorator(**options):
+    plain = numba.config.DISABLE_JIT  # then njit hands back the function itself
+    return partial(numba.njit if plain else Kernel, **OPTIONS, **options)
+
+
+kernel = _decorator()
 
 # Short helpers of a loop that are handed many arrays: as calls they would pass hundreds of numbers.
-inlined_kernel = numba.njit(**OPTIONS, forceinline=True)
+inlined_kernel = _decorator(forceinline=True)
 
 # Loops over all particles: a product and a sum may become one fused operation, rounded once, and
 # x + 0 is x. Geometry must not: whether a point lies on a crack is decided by differences of equal
 # products.
-particle_kernel = numba.njit(**OPTIONS, fastmath={"contract", "nsz"})
+particle_kernel = _decorator(fastmath={"contract", "nsz"})

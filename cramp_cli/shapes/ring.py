@@ -12,13 +12,18 @@ exactly a r_p. Momentum and energy are kept with any values, for they serve both
 from math import inf
 from typing import Any, NamedTuple
 
+from cramp_cli.numerics.kernel import inlined_kernel
 from cramp_cli.shapes.shape import (
     along_axis,
     at_point,
     first_node,
+    has_domain,
     hoop_pull,
+    in_ring,
     is_ring,
+    lay_out,
     node_steps,
+    place_of,
     reaches_beyond,
     ring_slopes,
     seen_from,
@@ -52,6 +57,28 @@ def _(shape):
     return True
 
 
+@has_domain.implement(Ring)
+def _(shape):
+    return has_domain(shape.plain)
+
+
+@lay_out.implement(Ring)
+def _(shape, stencil, F, p):
+    return lay_out(shape.plain, stencil, F, p)
+
+
+@inlined_kernel
+def radius_of(shape, base, x):
+    """Return the radius of a particle in cells; x: place along r from its first node `base`."""
+    return x + (base % shape.columns - shape.axis)
+
+
+@place_of.implement(Ring)
+def _(shape, strides, stencil, p):
+    radius = radius_of(shape, stencil.base[p], stencil.local[p, 0])
+    return in_ring(place_of(shape.plain, strides, stencil, p), radius)
+
+
 @first_node.implement(Ring)
 def _(shape, axis, x):
     return first_node(shape.plain, axis, x)
@@ -77,7 +104,7 @@ def _(shape, axis, r):
 
 @seen_from.implement(Ring)
 def _(shape, base, local):
-    radius = local[0] + (base % shape.columns - shape.axis)
+    radius = radius_of(shape, base, local[0])
     return Ring(shape.plain, shape.half, shape.axis, shape.columns, radius)
 
 

@@ -1,12 +1,17 @@
 """What a shape function answers.
 
-All are products of functions of one axis. A particle sees `support` nodes along each axis, starting
-at `first_node`; S_ip is the product of the axis values, its gradient has one of them replaced by
-the slope (algorithm: Bardenhagen and Kober 2004).
+A particle sees `support` nodes along each axis from `first_node` on. In most shapes S_ip is the
+product of functions of one axis, its gradient has one of them replaced by the slope (algorithm:
+Bardenhagen and Kober 2004): the place of a particle is a point, a tuple. Of a shape with domains
+(cpdi.py) it is a record, for which `factors`, `weights`, `gradients` and others have bodies of
+their own.
 """
 
 from cramp_cli.numerics.dispatch import by_length, generic
-from cramp_cli.numerics.vector import outer, outer_sum, times
+from cramp_cli.numerics.vector import outer, outer_sum, plus, times, vector
+
+# What `lay_out` did with the domain of a particle; NOWHERE: it is no number
+AS_IT_IS, SHORTENED, NOWHERE = 0, 1, 2
 
 
 @generic
@@ -43,6 +48,21 @@ def reaches_beyond(shape):
 @generic
 def is_ring(shape):
     """Return whether particles are rings about an axis (ring.py)."""
+
+
+@generic
+def has_domain(shape):
+    """Return whether particles have domains that are strained with them (cpdi.py)."""
+
+
+@generic
+def lay_out(shape, stencil, F, p):
+    """Note the domain of a particle as its F has strained it; return what was done with it."""
+
+
+@generic
+def place_of(shape, strides, stencil, p):
+    """Return where a particle is, in cells from its first node: a point, or its domain."""
 
 
 @generic
@@ -154,19 +174,36 @@ def _(like, r):
 
 
 @by_length
-def point_weights(local, shape):
-    """Return the functions of a point at the nodes of the particle that holds it."""
+def point_weights(local, shape, away):
+    """Return the functions of a point at the nodes of the particle that holds it.
+
+    away: from the centre of the particle to the point at the start, in cells
+    """
 
 
 @point_weights.implement(2)
-def _(local, shape):
-    return outer(at_point(shape, local[1]), at_point(shape, local[0]))
+def _(local, shape, away):
+    point = plus(local, 1.0, away)
+    return outer(at_point(shape, point[1]), at_point(shape, point[0]))
 
 
 @point_weights.implement(3)
-def _(local, shape):
-    x, y = at_point(shape, local[0]), at_point(shape, local[1])
-    return outer(at_point(shape, local[2]), outer(y, x))
+def _(local, shape, away):
+    point = plus(local, 1.0, away)
+    x, y = at_point(shape, point[0]), at_point(shape, point[1])
+    return outer(at_point(shape, point[2]), outer(y, x))
+
+
+@by_length
+def sees(local, shape, k):
+    """Return whether node `k` of a particle may have a weight; a point sees all its nodes."""
+    return True
+
+
+@by_length
+def in_ring(local, radius):
+    """Return the place of a ring with what its radius (cells) does to gradients."""
+    return local
 
 
 @by_length
@@ -196,6 +233,9 @@ def _unchanged(shape, slopes, radius):
 def plane(kind, slopes_in_a_ring=_unchanged, of_a_point=_linear) -> None:
     """Declare a shape of the plane: what it answers, alone and as part of a ring."""
     is_ring.implement(kind)(lambda shape: False)
+    has_domain.implement(kind)(lambda shape: False)
+    lay_out.implement(kind)(lambda shape, stencil, F, p: AS_IT_IS)
+    place_of.implement(kind)(lambda shape, strides, stencil, p: vector(strides, stencil.local, p))
     seen_from.implement(kind)(lambda shape, base, local: shape)
     ring_slopes.implement(kind)(slopes_in_a_ring)
     hoop_pull.implement(kind)(lambda shape, like, hoop: times(like, 0.0))

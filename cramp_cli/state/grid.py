@@ -16,9 +16,7 @@ class Grid(NamedTuple):
 
     mass: np.ndarray  # (rows,) kg
     momentum: np.ndarray  # (rows, dim) kg m/s
-    saved: (
-        np.ndarray
-    )  # (rows, dim) momentum before the boundary conditions of the first strain update
+    saved: np.ndarray  # (rows, dim) momentum before the first boundary conditions
     force: np.ndarray  # (rows, dim) N
     velocity: np.ndarray  # (rows, dim) m/s
     acceleration: np.ndarray  # (rows, dim) m/s^2
@@ -32,9 +30,7 @@ class Rows(NamedTuple):
     of the groups that see the node. Arrays over extra rows start at row number `nodes`.
     """
 
-    count: (
-        np.ndarray
-    )  # (4,) extra rows in use, nodes with extra rows, wrong-side pairs, third cracks
+    count: np.ndarray  # (5,) extra rows, nodes that have them, wrong sides, third cracks, tipped
     first: np.ndarray  # (nodes,) first extra row of a node, or -1
     next: np.ndarray  # (extra,) next extra row of the same node, or -1; ascending by their labels
     node: np.ndarray  # (extra,) node of an extra row
@@ -45,9 +41,7 @@ class Rows(NamedTuple):
     crack: np.ndarray  # (extra, 2) cracks crossed, ascending, -1 for none
     side: np.ndarray  # (extra, 2) side of the row's particles: +1 above, -1 below the crack
     normal: np.ndarray  # (extra, 2, dim) sum of crossed segments turned from above to below, m
-    touching: (
-        np.ndarray
-    )  # (extra, 2) what a row does with the row across each crack: open, slide, stick
+    touching: np.ndarray  # (extra, 2) open, sliding or stuck to the row across each crack
     tip: np.ndarray  # (nodes,) tip (2 * crack + end) that is near a node, or -1
     tip_side: np.ndarray  # (nodes,) side of that crack on which the node lies
     tip_segment: np.ndarray  # (nodes,) segment of the crack nearest to the node

@@ -24,6 +24,7 @@ class Growth(NamedTuple):
     load: np.ndarray  # (ends, 3) J (J/m^2), K_I, K_II (Pa sqrt(m)) when last found
     mean: np.ndarray  # (ends, 2) sums of K_I and K_II times the way of the piece (Pa m^1.5)
     stage: np.ndarray  # (ends,) where the load was found: OWN, KINK, ...
+    reach: np.ndarray  # (ends,) radius of the domain in which it was last found (m)
     unseen: np.ndarray  # (ends,) length grown since the load was last found (m)
     running: np.ndarray  # (ends,) 1 from the onset to an arrest
     rested: np.ndarray  # (ends,) time at rest since it last moved (s)
@@ -50,6 +51,7 @@ def make_growth(paths) -> Growth:
         load=np.zeros((n, 3)),
         mean=np.zeros((n, 2)),
         stage=np.full(n, BLIND, dtype=np.int64),
+        reach=np.zeros(n),
         unseen=np.zeros(n),
         running=np.zeros(n, dtype=np.int64),
         rested=np.zeros(n),
@@ -61,8 +63,8 @@ def make_growth(paths) -> Growth:
 
 
 def running_tips(growth: Growth) -> list[int]:
-    """Return the ends (2 * crack + end) that run now."""
-    return np.flatnonzero(growth.speed > 0.0).tolist()
+    """Return the ends (2 * crack + end) that run, or pause for less than an arrest takes."""
+    return np.flatnonzero(growth.running).tolist()
 
 
 def _heading(paths, crack: int, end: int) -> np.ndarray:

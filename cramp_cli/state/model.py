@@ -116,8 +116,9 @@ class Scratch:
     stencil: Stencil
     segments: Any
     team: Any  # the threads
-    report: np.ndarray  # (blocks, bands, 3) what locating the particles found
+    report: np.ndarray  # (blocks, bands, 4) what locating the particles found
     per_band: np.ndarray  # (bands,) sums over the particles of a band
+    seen: tuple  # room for what the surfaces of a crack point see, above and below
     shared: list = field(default_factory=list)  # for each block: its particles, shared out
     index: np.ndarray | None = None  # (n,) where the particle of each number is
     origins: Any = None  # numbers of the particles by the cells in which they started

@@ -25,9 +25,7 @@ class Paths(NamedTuple):
     start: np.ndarray  # (cracks + 1,) first point of each crack
     ends: np.ndarray  # (cracks, 2) PLAIN, EDGE or TIP at first and last point
     fixed: np.ndarray  # (cracks,) 1 where the crack does not move
-    mirror: (
-        np.ndarray
-    )  # (cracks, 2) axis normal to the symmetry plane that holds the crack or -1; body side
+    mirror: np.ndarray  # (cracks, 2) axis normal to its symmetry plane or -1, side of the body
 
     @property
     def crack_count(self) -> int:

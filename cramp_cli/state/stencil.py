@@ -21,6 +21,7 @@ class Stencil(NamedTuple):
 
     base: np.ndarray  # (n,) lowest node of the particle's nodes
     local: np.ndarray  # (n, dim) position from the base node, in cells
+    sides: np.ndarray  # (n, dim*dim) half sides of its domain, one by one, in cells; of cpdi only
     near: np.ndarray  # (n,) line of the lists of entries; FAR or AROUND: the nodes are the rows
     entries: np.ndarray  # (listed,) number of entries of a listed particle
     which: np.ndarray  # (listed, 2 * nodes per particle) node of an entry, in the particle's order
@@ -32,11 +33,17 @@ class Stencil(NamedTuple):
     count: np.ndarray  # (2,) how many of `listed` and `around` are in use
 
 
-def make_stencil(n: int, dim: int, nodes_per_particle: int, listed: int) -> Stencil:
-    """Return an empty stencil for `n` particles of which `listed` may lie near cracks."""
+def make_stencil(
+    n: int, dim: int, nodes_per_particle: int, listed: int, *, domains: bool = False
+) -> Stencil:
+    """Return an empty stencil for `n` particles of which `listed` may lie near cracks.
+
+    domains: whether particles have domains that are strained with them
+    """
     return Stencil(
         base=np.zeros(n, dtype=np.int32),
         local=np.zeros((n, dim)),
+        sides=np.zeros((n if domains else 0, dim * dim)),
         near=np.full(n, FAR, dtype=np.int32),
         listed=np.zeros(n, dtype=np.int32),
         around=np.zeros(n, dtype=np.int32),

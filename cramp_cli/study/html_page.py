@@ -13,15 +13,20 @@ PLACE = re.compile(r"\{\{(\w+)\}\}")
 
 
 def write_page(target: Path, template: str, parts: dict[str, str]) -> Path:
-    """Fill the places of a template of the folder page/ and write it.
+    """Fill the places of the page and of a template of the folder page/ and write it.
 
-    parts: HTML for each place; `style` and the script of the template's name are added
+    parts: HTML for each place; style and scripts are added
     """
-    known = {"style": asset("report.css"), "script": asset(f"{template}.js"), **parts}
-    page = PLACE.sub(lambda place: known[place[1]], asset(f"{template}.html"))
+    scripts = asset("common.js") + asset(f"{template}.js")
+    known = {"style": asset("page.css"), "script": scripts, **parts}
+    known["main"] = _filled(asset(f"{template}.html"), known)
     target.parent.mkdir(parents=True, exist_ok=True)
-    write_text(target, page)
+    write_text(target, _filled(asset("page.html"), known))
     return target
+
+
+def _filled(template: str, parts: dict[str, str]) -> str:
+    return PLACE.sub(lambda place: parts[place[1]], template)
 
 
 def asset(name: str) -> str:

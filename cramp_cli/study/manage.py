@@ -8,13 +8,14 @@ from pathlib import Path
 from typing import NamedTuple
 
 from cramp_cli.deck.sweep import Study, read_study
-from cramp_cli.output.exits import DIFFERENT, DONE, OutOfResources
+from cramp_cli.output.exits import DIFFERENT, DONE, FolderError, OutOfResources
 from cramp_cli.output.tables import duration
 from cramp_cli.study.cases import Case, expand
 from cramp_cli.study.collect import check_columns, collect, write_results
 from cramp_cli.study.dask_backend import run_on_dask
 from cramp_cli.study.one_case import Sweep
 from cramp_cli.study.outcome import WORDS, Outcome, SweepFolder
+from cramp_cli.study.report import report
 from cramp_cli.study.slurm import write_slurm
 from cramp_cli.study.sweep import default_folder, only, run_cases, to_do
 from cramp_cli.study.sweep_report import sweep_report
@@ -61,6 +62,7 @@ def run_study(path: Path, options: SweepOptions) -> tuple[int, Path]:
     if options.most is not None and len(todo) > options.most:
         text = f"{path}: {len(todo)} cases to run; more than {options.most} need --force"
         raise OutOfResources(text)
+    folder.remember(path)
     if options.backend == "slurm" and todo:
         return DONE, write_slurm(sweep, path, todo, options.jobs, sys.executable)
     teller = _Teller(len(todo), options.verbosity)
@@ -132,8 +134,17 @@ def collect_study(
     return write_results(table or folder.path / "results.csv", rows)
 
 
-def report_study(path: Path, output: Path | None, page: Path | None) -> Path:
-    """Write the page of a sweep and return its path."""
-    study, cases, folder = open_study(path, output)
+def report_folder(path: Path, page: Path | None) -> Path:
+    """Write the page of a run or of a sweep, by what the folder holds, and return its path.
+
+    Raises FolderError if the study of a sweep has gone.
+    """
+    page, whose = page or path / "report.html", SweepFolder(path).study()
+    if whose is None:
+        return report(path, page)
+    if not whose.exists():
+        remedy = f"`cramp sweep run STUDY -o {path}` tells where it is now"
+        raise FolderError(f"{path}: its study {whose} is not there; {remedy}")
+    study, cases, folder = open_study(whose, path)
     rows = collect(cases, folder, study.collect, wall_time=True)
-    return sweep_report(page or folder.path / "report.html", study.title or path.stem, rows)
+    return sweep_report(page, study.title or whose.stem, rows)

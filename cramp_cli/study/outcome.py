@@ -10,6 +10,7 @@ from cramp_cli.output.atomic import write_json
 from cramp_cli.output.exits import DONE, INTERRUPTED, STOPPED
 from cramp_cli.output.folder import LOCK
 
+STUDY = "sweep.json"  # file in the folder of a sweep
 WORDS = ("done", "running", "stopped", "failed", "hung", "killed", "interrupted", "missing")
 
 
@@ -26,6 +27,16 @@ class SweepFolder(NamedTuple):
     """Where the runs of a sweep are."""
 
     path: Path
+
+    def remember(self, study: Path) -> None:
+        """Write down of which study these are the runs."""
+        self.path.mkdir(parents=True, exist_ok=True)
+        write_json(self.path / STUDY, {"study": str(study.resolve())})
+
+    def study(self) -> Path | None:
+        """Return the study; None if the folder is not that of a sweep."""
+        known = _json(self.path / STUDY).get("study")
+        return Path(known) if known else None
 
     def run(self, name: str) -> Path:
         """Return the folder of a case's run."""

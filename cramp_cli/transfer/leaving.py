@@ -19,7 +19,7 @@ def let_leave(model, state, scratch, p: int) -> None:
     p: one of those that left
     raises: NumericalFailure if particles may not leave, or particle `p` is nowhere
     """
-    if model.leaving == ERROR or not np.isfinite(state.particles.position[p]).all():
+    if model.leaving == ERROR or not _is_somewhere(state.particles, p):
         raise _failure(model, state, p)
     treat, words = {DELETE: (_delete, "is deleted"), CLAMP: (_hold, "is held at its border")}[
         model.leaving
@@ -31,6 +31,11 @@ def let_leave(model, state, scratch, p: int) -> None:
                 text = f"{describe(model, state, q)} has left the grid and {words}"
                 scratch.remarks.append(f"step {state.step}, t = {state.time:.6g} s: {text}")
                 state.books.external[0] -= treat(model.lattice, state.particles, block, q, axes)
+
+
+def _is_somewhere(particles, p: int) -> bool:
+    """Return whether place and deformation of a particle are numbers."""
+    return bool(np.isfinite(particles.position[p]).all() and np.isfinite(particles.F[p]).all())
 
 
 def _axes_left(lattice, shape, position) -> list[int]:
@@ -77,8 +82,8 @@ def _hold(lattice, particles, block, p: int, axes) -> float:
 def _failure(model, state, p: int) -> NumericalFailure:
     """Return what to say of a particle that has no nodes."""
     text = f"step {state.step}, t = {state.time:.6g} s: {describe(model, state, p)}"
-    if not np.isfinite(state.particles.position[p]).all():
-        return NumericalFailure(f"{text} has a position that is no number.\n{CAUSES}")
+    if not _is_somewhere(state.particles, p):
+        return NumericalFailure(f"{text} has a position or a shape that is no number.\n{CAUSES}")
     return NumericalFailure(
         f"{text} leaves the grid.\nMake the grid larger (grid.lower, grid.upper or grid.margin), "
         "look for what throws the body out, or let particles leave (solver.leaving)."

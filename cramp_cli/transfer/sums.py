@@ -27,7 +27,8 @@ def _locate(model, state, scratch) -> tuple[int, bool]:
     grid = (lattice.lower, model.strides, lattice.nodes, lattice.width)
     cracks = (segments.head, segments.zone, band_axis(lattice.cells))
     for number, b in enumerate(model.blocks):
-        args = (scratch.stencil, state.particles.position, b.shape, *grid, *cracks, report[number])
+        x, F = state.particles.position, state.particles.F
+        args = (scratch.stencil, x, F, b.shape, *grid, *cracks, report[number])
         scratch.team.run(to_particles.locate, args, scratch.shared[number].shares)
     return int(report[:, :, 0].max()), bool(report[:, :, 1].any())
 

@@ -17,16 +17,17 @@ from cramp_cli.numerics.vector import (
     times,
     vector,
 )
+from cramp_cli.shapes.nodes import give, give_gradient, take
 from cramp_cli.shapes.shape import (
     factors,
     gradients,
     hoop_pull,
     is_ring,
     offsets,
+    place_of,
     seen_from,
     weights,
 )
-from cramp_cli.transfer.nodes import give, give_gradient, take
 from cramp_cli.transfer.rows import add, entry_gradient, first_line
 
 
@@ -57,11 +58,11 @@ def sum_mass_and_momentum(grid, particles, stencil, shape, strides, parts):
 def _mass_and_momentum_far(grid, particles, stencil, shape, strides, run):
     mass, momentum = grid.mass, grid.momentum
     m, v = particles.mass, particles.velocity
-    base, local, near = stencil.base, stencil.local, stencil.near
+    base, near = stencil.base, stencil.near
     for number in range(run[0], run[1]):
         p = uint64(number)
         if near[p] < 0:
-            along = factors(vector(strides, local, p), shape)
+            along = factors(place_of(shape, strides, stencil, p), shape)
             give(along, strides, base[p], mass, (m[p],))
             give(along, strides, base[p], momentum, times(vector(strides, v, p), m[p]))
 
@@ -73,7 +74,7 @@ def _mass_and_momentum_near(grid, particles, stencil, shape, strides, run):
     which, table, share = stencil.which, stencil.table, stencil.share
     for line in range(first_line(stencil, run[0]), first_line(stencil, run[1])):
         p = stencil.listed[line]
-        S = weights(vector(strides, stencil.local, p), shape)
+        S = weights(place_of(shape, strides, stencil, p), shape)
         P = times(vector(strides, v, p), m[p])
         for e in range(stencil.entries[line]):
             w = share[line, e] * S[which[line, e]]
@@ -97,14 +98,14 @@ def sum_internal_force(grid, particles, stencil, shape, strides, width, parts):
 def _internal_force_far(grid, particles, stencil, shape, strides, width, run):
     force, per_cell = grid.force, -1.0 / width
     stress, volume = particles.stress, particles.volume
-    base, local, near = stencil.base, stencil.local, stencil.near
+    base, near = stencil.base, stencil.near
     for number in range(run[0], run[1]):
         p = uint64(number)
         if near[p] < 0:
             T = columns(scaled(symmetric(strides, stress, p), volume[p] * per_cell))
-            place = vector(strides, local, p)
+            place = place_of(shape, strides, stencil, p)
             seen = seen_from(shape, base[p], place)
-            pull = hoop_pull(seen, place, stress[p, 2] * volume[p] * per_cell)
+            pull = hoop_pull(seen, strides, stress[p, 2] * volume[p] * per_cell)
             give_gradient(factors(place, seen), strides, base[p], force, pull, T)
 
 
@@ -115,9 +116,9 @@ def _internal_force_near(grid, particles, stencil, shape, strides, width, run):
     for line in range(first_line(stencil, run[0]), first_line(stencil, run[1])):
         p = stencil.listed[line]
         T = scaled(symmetric(strides, stress, p), volume[p] * per_cell)
-        place = vector(strides, stencil.local, p)
+        place = place_of(shape, strides, stencil, p)
         seen = seen_from(shape, stencil.base[p], place)
-        pull = hoop_pull(seen, place, stress[p, 2] * volume[p] * per_cell)
+        pull = hoop_pull(seen, strides, stress[p, 2] * volume[p] * per_cell)
         S, G = weights(place, seen), gradients(place, seen)
         for e in range(stencil.entries[line]):
             g = entry_gradient(stencil, strides, line, e, S, G)
@@ -131,12 +132,12 @@ def _internal_force_near(grid, particles, stencil, shape, strides, width, run):
 def sum_particle_force(grid, chosen, load, stencil, shape, strides, factor):
     """Add f_i = sum S P_p for the particles `chosen` with forces factor * load (N)."""
     force = grid.force
-    base, local, near = stencil.base, stencil.local, stencil.near
+    base, near = stencil.base, stencil.near
     entries, which, table, share = stencil.entries, stencil.which, stencil.table, stencil.share
     steps = offsets(strides, shape)
     for c in range(len(chosen)):
         p = chosen[c]
-        S = scaled(weights(vector(strides, local, p), shape), factor)
+        S = scaled(weights(place_of(shape, strides, stencil, p), shape), factor)
         P = vector(strides, load, c)
         first, line = base[p], near[p]
         if line < 0:
@@ -162,11 +163,11 @@ def smooth(target, field, particles, stencil, shape, strides, parts):
 
 @particle_kernel
 def _smooth_far(target, field, m, stencil, shape, strides, run):
-    base, local, near = stencil.base, stencil.local, stencil.near
+    base, near = stencil.base, stencil.near
     for number in range(run[0], run[1]):
         p = uint64(number)
         if near[p] < 0:
-            along = factors(vector(strides, local, p), shape)
+            along = factors(place_of(shape, strides, stencil, p), shape)
             v = take(along, strides, base[p], field)
             give(along, strides, base[p], target, times(v, m[p]))
 
@@ -176,8 +177,8 @@ def _smooth_near(target, field, m, stencil, shape, strides, run):
     which, table, share = stencil.which, stencil.table, stencil.share
     for line in range(first_line(stencil, run[0]), first_line(stencil, run[1])):
         p = stencil.listed[line]
-        place = vector(strides, stencil.local, p)
-        S, v = weights(place, shape), times(place, 0.0)
+        S = weights(place_of(shape, strides, stencil, p), shape)
+        v = times(strides, 0.0)
         for e in range(stencil.entries[line]):
             w = share[line, e] * S[which[line, e]]
             v = plus(v, w, vector(strides, field, table[line, e]))

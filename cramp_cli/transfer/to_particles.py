@@ -35,10 +35,15 @@ from cramp_cli.numerics.vector import (
     whole,
     within,
 )
+from cramp_cli.shapes.nodes import give, take, take_both
 from cramp_cli.shapes.shape import (
+    NOWHERE,
+    SHORTENED,
     factors,
     first_nodes,
     gradients,
+    lay_out,
+    place_of,
     seen_from,
     store_hoop,
     support,
@@ -46,7 +51,6 @@ from cramp_cli.shapes.shape import (
 )
 from cramp_cli.state.bands import HEIGHT, STRAY
 from cramp_cli.state.stencil import AROUND, CLOSE, FAR
-from cramp_cli.transfer.nodes import give, take, take_both
 from cramp_cli.transfer.rows import add, entry_gradient, first_line
 from cramp_cli.transfer.update import moved
 
@@ -54,34 +58,40 @@ AT_A_TIME = 512  # particles
 
 
 @kernel
-def locate(stencil, position, shape, lower, strides, nodes, width, head, zone, axis, report, parts):
+def locate(
+    stencil, position, F, shape, lower, strides, nodes, width, head, zone, axis, report, parts
+):
     """Find the nodes that particles see, and how near to cracks they are.
 
     nodes: number of grid nodes along each axis; head, zone: of Segments; axis: across the bands
-    report: (bands, 3) set to a particle that sees nodes outside the grid (or has no position) or
-    -1, the number of particles that have strayed from their band, and the number not FAR
+    report: (bands, 4) set to a particle that sees nodes outside the grid (or has no position) or
+    -1, the number of particles that have strayed from their band, the number not FAR, and the
+    number of those whose domain was shortened
     """
     base, local, near = stencil.base, stencil.local, stencil.near
     seen = support(shape)
     for part in range(len(parts)):
         band = parts[part, 2]
         lowest, highest = HEIGHT * band - STRAY, HEIGHT * (band + 1) + STRAY
-        gone, strayed, close = -1, 0, 0
+        gone, strayed, close, short = -1, 0, 0, 0
         for number in range(parts[part, 0], parts[part, 1]):
             p = uint64(number)
             x = in_cells(vector(strides, position, p), lower, width)
             first, cell = first_nodes(x, shape, 0), whole(x)
             near[p] = FAR
-            if not within(first, seen, nodes):
+            laid = lay_out(shape, stencil, F, p)
+            if laid == NOWHERE or not within(first, seen, nodes):
                 gone = number
                 continue
             base[p] = dot(first, strides)
             store(plus(x, -1.0, first), local, p, 0)
+            short += laid == SHORTENED
             strayed += not lowest <= cell[axis] < highest
             if zone[dot(cell, strides)]:
                 near[p] = CLOSE if head[dot(cell, strides)] >= 0 else AROUND
                 close += 1
-        report[band, 0], report[band, 1], report[band, 2] = gone, strayed, close
+        report[band, 0], report[band, 1] = gone, strayed
+        report[band, 2], report[band, 3] = close, short
 
 
 @particle_kernel
@@ -104,12 +114,12 @@ def move_particles(
 @particle_kernel
 def _move_far(particles, grid, stencil, update, shape, strides, damping, dt, again, run):
     velocity, acceleration, momentum = grid.velocity, grid.acceleration, grid.saved
-    base, local, near = stencil.base, stencil.local, stencil.near
+    base, near = stencil.base, stencil.near
     m, lost = particles.mass, 0.0
     for number in range(run[0], run[1]):
         p = uint64(number)
         if near[p] < 0:
-            along = factors(vector(strides, local, p), shape)
+            along = factors(place_of(shape, strides, stencil, p), shape)
             u = take(along, strides, base[p], velocity)
             a = take(along, strides, base[p], acceleration)
             lost += _move_one(particles, p, update, u, a, damping, dt)
@@ -126,8 +136,8 @@ def _move_near(particles, grid, stencil, update, shape, strides, damping, dt, ag
     m, lost = particles.mass, 0.0
     for line in range(first_line(stencil, run[0]), first_line(stencil, run[1])):
         p = stencil.listed[line]
-        place = vector(strides, stencil.local, p)
-        S, u, a = weights(place, shape), times(place, 0.0), times(place, 0.0)
+        S = weights(place_of(shape, strides, stencil, p), shape)
+        u, a = times(strides, 0.0), times(strides, 0.0)
         for e in range(stencil.entries[line]):
             w, row = share[line, e] * S[which[line, e]], table[line, e]
             u = plus(u, w, vector(strides, velocity, row))
@@ -169,11 +179,11 @@ def update_stress(particles, grid, stencil, law, geometry, shape, strides, width
 
 @particle_kernel
 def _gradients_far(L, velocity, stencil, shape, strides, per_cell, run):
-    base, local, near = stencil.base, stencil.local, stencil.near
+    base, near = stencil.base, stencil.near
     for number in range(run[0], run[1]):
         p = uint64(number)
         if near[p] < 0:
-            place = vector(strides, local, p)
+            place = place_of(shape, strides, stencil, p)
             seen = seen_from(shape, base[p], place)
             v, slopes = take_both(factors(place, seen), strides, base[p], velocity)
             store(scaled(from_columns(slopes), per_cell), L, p, 0)
@@ -185,10 +195,10 @@ def _gradients_near(L, velocity, stencil, shape, strides, per_cell, run):
     table, which, share = stencil.table, stencil.which, stencil.share
     for line in range(first_line(stencil, run[0]), first_line(stencil, run[1])):
         p = stencil.listed[line]
-        place = vector(strides, stencil.local, p)
+        place = place_of(shape, strides, stencil, p)
         seen = seen_from(shape, stencil.base[p], place)
-        S, G, gradient = weights(place, seen), gradients(place, seen), zero_matrix(place)
-        v = times(place, 0.0)
+        S, G, gradient = weights(place, seen), gradients(place, seen), zero_matrix(strides)
+        v = times(strides, 0.0)
         for e in range(stencil.entries[line]):
             g = entry_gradient(stencil, strides, line, e, S, G)
             v_row = vector(strides, velocity, table[line, e])

@@ -119,7 +119,7 @@ def test_1_cracks_that_grow_do_so_in_pieces_and_with_any_number_of_threads(
 ):
     """Round an inclusion; towards a contact. Both stops come while a tip runs."""
     settings = [f"grid.cell={cell}", f"solver.end_time={end}", "output.every=20 us"]
-    path, every = INPUTS / f"{deck}.yaml", 100
+    path, every = INPUTS / f"{deck}.yaml", 10
     options = {"overrides": settings, "checkpoint_every": (every, None)}
     whole = run_in_pieces(path, tmp_path / "whole", **options)
     with (whole / "growth.csv").open() as file:

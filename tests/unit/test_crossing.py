@@ -8,7 +8,8 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 from shapely import LineString, Point
 
-from cramp_cli.cracks.crossing import ON_CRACK, crossed_cracks, list_segments, make_segments
+from cramp_cli.cracks.crossing import crossed_cracks
+from cramp_cli.cracks.segments import ON_CRACK, list_segments, make_segments
 from cramp_cli.state.lattice import Lattice
 from cramp_cli.state.paths import EDGE, PLAIN, make_paths
 

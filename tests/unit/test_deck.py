@@ -246,6 +246,16 @@ def test_a_warning_of_schemes_that_may_be_unstable(write):
         assert read_deck(write(SMALL), [*pair, other]).warnings == []
 
 
+def test_a_warning_of_schemes_that_tear_domains(write):
+    """Places and domains of particles drift apart with all but flip and usavg-."""
+    (found,) = read_deck(write(SMALL), ["solver.shape=cpdi"]).warnings
+    assert "with flip and usavg+; use update: flip and strain: usavg-" in str(found)
+    good = ["solver.shape=cpdi", "solver.strain=usavg-"]
+    assert read_deck(write(SMALL), good).warnings == []
+    (found,) = read_deck(write(SMALL), [*good, "solver.update=xpic(2)"]).warnings
+    assert "with xpic(2) and usavg-" in str(found)
+
+
 def test_doubts_are_warnings(write):
     settings = [
         "bodies.0.particles_per_cell=1",

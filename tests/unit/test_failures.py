@@ -19,8 +19,8 @@ solver: {end_time: 1}
 
 
 @pytest.mark.parametrize(("place", "words", "others"), [
-    ([np.nan, 1.0], "has a position that is no number.\nLikely causes: the time step", "leaves"),
-    ([1.0, np.inf], "has a position that is no number.\nLikely causes: the time step", "leaves"),
+    ([np.nan, 1.0], "shape that is no number.\nLikely causes: the time step", "leaves"),
+    ([1.0, np.inf], "shape that is no number.\nLikely causes: the time step", "leaves"),
     ([1.0, 99.0], "leaves the grid.\nMake the grid larger", "no number"),
 ])  # fmt: skip
 def test_a_particle_without_nodes_is_named(place, words, others):

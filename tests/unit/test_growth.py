@@ -5,9 +5,9 @@ import pytest
 from support import build_deck
 
 from cramp_cli.cracks.cloud import cloud_around
-from cramp_cli.cracks.crossing import make_segments
 from cramp_cli.cracks.extend import add_point, end_point, make_room, move_end
 from cramp_cli.cracks.meeting import first_met, has_left_body, stay_on_grid
+from cramp_cli.cracks.segments import make_segments
 from cramp_cli.cracks.speed import (
     ALMOST,
     EnergyBalance,

@@ -33,6 +33,7 @@ OF_THE_TOP = {"logging", "time", "datetime", "io", "os", "shutil", "tempfile", "
 FILE_CALLS = {"print", "input", "open", "read_text", "read_bytes", "write_text", "write_bytes"}
 EXCEPT = {
     "numerics/cache.py",  # names the folder of compiled kernels
+    "numerics/start.py",  # says what numba need not import
     "schema/loader.py",  # reads the deck
 }
 MODULES = sorted(path.relative_to(PACKAGE).as_posix() for path in PACKAGE.rglob("*.py"))

@@ -8,11 +8,12 @@ from cramp_cli.numerics.matrix import from_columns
 from cramp_cli.numerics.symmetric import columns
 from cramp_cli.shapes.bspline3 import CubicSpline
 from cramp_cli.shapes.linear import Linear
-from cramp_cli.shapes.shape import factors, gradients, offsets, weights
-from cramp_cli.transfer.nodes import give, give_gradient, take, take_both
+from cramp_cli.shapes.nodes import give, give_gradient, take, take_both
+from cramp_cli.shapes.shape import factors, gradients, has_domain, offsets, weights
 
 EVERYWHERE = pytest.mark.parametrize(
-    ("shape", "dim"), [(kind, dim) for kind in SHAPES.values() for dim in (2, 3)]
+    ("shape", "dim"),
+    [(k, dim) for k in SHAPES.values() for dim in (2, 3) if not has_domain(k((0.25, 0.25)))],
 )
 FIRST = 4
 

@@ -35,7 +35,7 @@ def opening(*order):
     model, state, scratch = build_deck(deck)
     velocity = np.random.default_rng(1).normal(size=state.particles.velocity.shape)
     state.particles.velocity[:] = velocity
-    state.growth.speed[1], state.growth.length[1] = 0.1, 3.0
+    state.growth.running[1], state.growth.length[1], state.growth.reach[1] = 1, 3.0, 5.0
     locate(model, state, scratch)
     sum_mass_and_momentum(model, state, scratch)
     return model, state, scratch

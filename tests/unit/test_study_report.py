@@ -41,7 +41,7 @@ def data_of(page):
 def test_the_page_asks_for_nothing_else(page):
     """No address and no file: links lead within the page; the namespace of SVG is only a name."""
     links = re.findall(r"(?:src|href|url|action)\s*[=(]\s*[\"']?([^\"')\s>]+)", page)
-    assert set(links) == {"#verdicts"}
+    assert set(links) == {"#main"}
     assert set(re.findall(r"https?://[^\s\"']+", page)) == {"http://www.w3.org/2000/svg"}
     assert "@import" not in page
 

@@ -22,10 +22,11 @@ from cramp_cli.study.manage import (
     SweepOptions,
     collect_study,
     open_study,
-    report_study,
+    report_folder,
     run_study,
     tell_study,
 )
+from cramp_cli.study.outcome import SweepFolder
 from cramp_cli.study.sweep import run_cases, to_do
 
 HEAD = "cramp_sweep: 1\ndeck: plate.yaml\nvary:\n"
@@ -204,6 +205,7 @@ def test_failed_hung_and_killed_cases_are_told_and_run_again_alone(study, worker
     workers.update({0.2: "fail", 0.3: "hang", 0.4: "die"})
     code, folder = run_study(path, OPTIONS)
     assert (code, folder.name) == (DIFFERENT, "cfl.sweep")
+    assert SweepFolder(folder).study() == path.resolve()
     told = {row["solver.cfl"]: row for row in json.loads(tell_study(path, None, as_json=True))}
     assert [told[cfl]["word"] for cfl in (0.1, 0.2, 0.3, 0.4)] == [
         "done",
@@ -380,7 +382,8 @@ def test_the_page_of_a_sweep_holds_every_case(study):
     path = study(HEAD + "  - {type: list, cases: [{thickness: 1 mm}, {title: <b>}]}\n" + COLLECT)
     opened = open_study(path)
     write_run(opened.folder.run(opened.cases[0].name), K_I=4e5)
-    page = report_study(path, None, None).read_text(encoding="utf-8")
+    opened.folder.remember(path)
+    page = report_folder(opened.folder.path, None).read_text(encoding="utf-8")
     data = json.loads(re.search(r'id="data">(.*?)</script>', page)[1])
     assert data["parameters"] == ["thickness", "title"]
     assert list(data["numbers"].values())[0] == "notch_end.K_I.max (Pa*m^0.5)"
@@ -389,6 +392,14 @@ def test_the_page_of_a_sweep_holds_every_case(study):
     assert '<p class="sub">2 cases: 1 done, 1 missing</p>' in page
     assert "&lt;b&gt;" in page
     assert "<td><b>" not in page
+
+
+def test_the_page_of_a_sweep_whose_study_is_gone_says_what_to_do(study, workers):
+    path = study(FOUR)
+    _, folder = run_study(path, OPTIONS)
+    path.unlink()
+    with pytest.raises(FolderError, match="cramp sweep run STUDY -o cfl.sweep"):
+        report_folder(folder, None)
 
 
 def test_the_table_as_parquet_has_the_same_numbers(study, tmp_path):

@@ -38,11 +38,11 @@ def crack_settings(cells, tip, line):
     return f"grid.cell={h}", f"cracks.centre.points={points}"
 
 
-def intensity(cells, tip, line):
-    """Return K of the plate at rest over the exact K_I."""
+def intensity(cells, tip, line, *more):
+    """Return K of the plate at rest over the exact K_I; `more` are further settings of -s."""
     settings = crack_settings(cells, tip, line)
     brief = f"solver.end_time={AT_REST}", "fracture.every=1 ms", "output.particles=false"
-    row = run_input("center_crack", *settings, *brief).tip("end")[-1]
+    row = run_input("center_crack", *settings, *brief, *more).tip("end")[-1]
     exact = center_crack(SIGMA, A + tip / 5 * A / cells, HALF_WIDTH)
     return Intensity(row["K_I"] / exact, row["K_II"] / exact, row["status"])
 

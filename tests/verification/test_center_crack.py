@@ -1,8 +1,8 @@
 """Reference case A1, a centre crack in a plate: K_I is right wherever in its cell the tip lies.
 
-Exact: Tada's formula for the length that the crack has. Bounds: 2 % at ten cells per half crack, 1
-% at twenty, |K_II| below 1 % of K_I. `python tests/verification/center_crack_table.py` prints all
-values.
+Exact: Tada's formula for the length that the crack has. Bounds: 1 % at ten cells per half crack,
+0.5 % at twenty, for each place and between any two; |K_II| below 1 % of K_I. `python
+tests/verification/center_crack_table.py` prints all values.
 """
 
 from dataclasses import replace
@@ -29,7 +29,7 @@ from cramp_cli.scratch import make_scratch
 
 pytestmark = pytest.mark.verification
 
-BOUNDS = {10: 0.02, 20: 0.01}  # of K_I, by cells per half crack
+BOUNDS = {10: 0.01, 20: 0.005}  # of K_I, by cells per half crack
 OF_K_II = 0.01
 A_FEW = [(0, 0), (1, 0), (2, 3)]  # on a node; 0.2 cells past it on the row; nowhere in particular
 ALL_PLACES = pytest.mark.parametrize(
@@ -40,6 +40,14 @@ ALL_PLACES = pytest.mark.parametrize(
 @pytest.mark.parametrize(("tip", "line"), A_FEW)
 def test_K_at_ten_cells(tip, line):
     found = intensity(10, tip, line)
+    assert found.one == pytest.approx(1.0, abs=BOUNDS[10])
+    assert abs(found.two) < OF_K_II * found.one
+    assert found.status == "ok"
+
+
+def test_K_of_convected_domains():
+    """The bound of the other shapes; measured 0.9938, as with ugimp."""
+    found = intensity(10, 2, 3, "solver.shape=cpdi", "solver.strain=usavg-")
     assert found.one == pytest.approx(1.0, abs=BOUNDS[10])
     assert abs(found.two) < OF_K_II * found.one
     assert found.status == "ok"
@@ -56,6 +64,26 @@ def test_K_I_is_right_everywhere_in_a_cell(all_places, tip, line):
     cells, found = all_places
     assert found[tip, line].one == pytest.approx(1.0, abs=BOUNDS[cells])
     assert found[tip, line].status == "ok"
+
+
+@pytest.mark.slow
+def test_all_places_in_a_cell_agree(all_places):
+    """The largest K_I and the smallest are as near to each other as each is to the exact one."""
+    cells, found = all_places
+    assert np.ptp([one.one for one in found.values()]) < BOUNDS[cells]
+
+
+@pytest.mark.slow
+def test_the_error_of_K_I_falls_with_the_cell():
+    """A1 over three grids: half the cell, at most half the error.
+
+    The tip is 0.4 cells past a node, where the error is largest; both heights of the line between
+    rows of particles.
+    """
+    errors = [np.hypot(*(intensity(n, 2, line).one - 1.0 for line in (0, 3))) for n in (6, 12, 24)]
+    orders = np.log2(np.divide(errors[:-1], errors[1:]))
+    assert errors[-1] < BOUNDS[20]
+    assert orders.min() > 1.0
 
 
 @pytest.mark.slow

@@ -1,8 +1,5 @@
-"use strict";
 // Charts and film of a run. One moment is shared by all of them: whoever changes it calls goTo.
 
-const data = JSON.parse(document.getElementById("data").textContent);
-const SVG = "http://www.w3.org/2000/svg";
 const WIDE = 900, TALL = 210, LEFT = 70, RIGHT = 14, TOP = 10, BOTTOM = 36;
 const listeners = [];
 let now = data.end;
@@ -12,33 +9,8 @@ function goTo(time) {
   for (const listen of listeners) listen(now);
 }
 
-function make(parent, name, attributes = {}, text = "") {
-  const svg = name === "svg" || parent.namespaceURI === SVG;
-  const node = svg ? document.createElementNS(SVG, name) : document.createElement(name);
-  for (const [key, value] of Object.entries(attributes)) node.setAttribute(key, value);
-  if (text) node.textContent = text;
-  parent.appendChild(node);
-  return node;
-}
-
-function shown(value) {
-  if (value === null || value === undefined) return "none";
-  return Number(value.toPrecision(4)).toString().replaceAll("-", "\u2212");
-}
-
 function timeText(time) {
   return `${shown(time / data.time.size)} ${data.time.unit}`;
-}
-
-// Round steps for about `count` ticks between two numbers.
-function ticks(low, high, count) {
-  const rough = (high - low) / count, power = 10 ** Math.floor(Math.log10(rough));
-  const step = [1, 2, 5, 10].map((n) => n * power).find((n) => n >= rough * 0.999);
-  const found = [];
-  for (let n = Math.ceil(low / step - 1e-9); n * step <= high + 1e-9 * step; n++) {
-    found.push(Number((n * step).toPrecision(12)));
-  }
-  return found;
 }
 
 function nearest(times, time) {
@@ -168,12 +140,12 @@ function unpacked(text, Kind) {
 }
 
 function showFilm(film) {
-  const canvas = document.getElementById("canvas"), slider = document.getElementById("slider");
-  const select = document.getElementById("quantity"), play = document.getElementById("play");
-  const clock = document.getElementById("clock");
+  const canvas = byId("canvas"), slider = byId("slider");
+  const select = byId("quantity"), play = byId("play");
+  const clock = byId("clock");
   const times = film.frames.map((frame) => frame.time);
   const [x0, y0, x1, y1] = film.box;
-  document.getElementById("film").hidden = false;
+  byId("film").hidden = false;
   film.quantities.forEach((one, index) => make(select, "option", { value: index }, one.name));
   slider.max = times.length - 1;
   let frame = times.length - 1, timer = null;
@@ -232,11 +204,11 @@ function showFilm(film) {
   }
 
   function legend(one, colours) {
-    const strip = document.getElementById("colours"), paper = strip.getContext("2d");
+    const strip = byId("colours"), paper = strip.getContext("2d");
     strip.width = 256;
     colours.forEach((colour, level) => { paper.fillStyle = colour; paper.fillRect(level, 0, 1, 12); });
-    document.getElementById("low").textContent = shown(one.low);
-    document.getElementById("high").textContent = `${shown(one.high)} and more`;
+    byId("low").textContent = shown(one.low);
+    byId("high").textContent = `${shown(one.high)} and more`;
   }
 
   function stop() {
@@ -268,12 +240,6 @@ function showFilm(film) {
 
 let redraw = () => {};
 
-document.getElementById("theme").addEventListener("click", () => {
-  const root = document.documentElement, system = matchMedia("(prefers-color-scheme: dark)").matches;
-  const dark = root.dataset.theme ? root.dataset.theme === "dark" : system;
-  root.dataset.theme = dark ? "light" : "dark";
-  redraw();
-});
-
-for (const spec of data.charts) chart(document.getElementById("charts"), spec);
+theme(redraw);
+for (const spec of data.charts) chart(byId("charts"), spec);
 if (data.film) showFilm(data.film);

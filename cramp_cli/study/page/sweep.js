@@ -1,34 +1,6 @@
-"use strict";
 // The response of a sweep: one number of every case over one parameter, coloured by another.
 
-const data = JSON.parse(document.getElementById("data").textContent);
-const SVG = "http://www.w3.org/2000/svg";
 const WIDE = 900, TALL = 380, LEFT = 84, RIGHT = 20, TOP = 14, BOTTOM = 46;
-const byId = (name) => document.getElementById(name);
-
-function make(parent, name, attributes = {}, text = "") {
-  const svg = name === "svg" || parent.namespaceURI === SVG;
-  const node = svg ? document.createElementNS(SVG, name) : document.createElement(name);
-  for (const [key, value] of Object.entries(attributes)) node.setAttribute(key, value);
-  if (text) node.textContent = text;
-  parent.appendChild(node);
-  return node;
-}
-
-function shown(value) {
-  return typeof value === "number" ? Number(value.toPrecision(4)).toString().replaceAll("-", "\u2212") : String(value);
-}
-
-function ticks(low, high, count) {
-  const rough = (high - low) / count || 1, power = 10 ** Math.floor(Math.log10(rough));
-  const step = [1, 2, 5, 10].map((n) => n * power).find((n) => n >= rough * 0.999);
-  const found = [];
-  for (let n = Math.ceil(low / step - 1e-9); n * step <= high + 1e-9 * step; n++) {
-    found.push(Number((n * step).toPrecision(12)));
-  }
-  return found;
-}
-
 // An axis: numbers stay numbers, anything else stands at 0, 1, 2 ... under its own name.
 function axis(name) {
   const values = data.rows.map((row) => row[name] ?? null), given = values.filter((v) => v !== null);
@@ -72,12 +44,7 @@ function draw() {
   });
 }
 
-document.getElementById("theme").addEventListener("click", () => {
-  const root = document.documentElement, system = matchMedia("(prefers-color-scheme: dark)").matches;
-  const dark = root.dataset.theme ? root.dataset.theme === "dark" : system;
-  root.dataset.theme = dark ? "light" : "dark";
-});
-
+theme();
 if (Object.keys(data.numbers).length) {
   byId("response").hidden = false;
   for (const [name, label] of Object.entries(data.numbers)) make(byId("y"), "option", { value: name }, label);

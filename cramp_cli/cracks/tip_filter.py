@@ -1,0 +1,146 @@
+"""What no node sees is taken from the particles around a running tip, and booked once.
+
+FLIP keeps velocities that no node sees, and a tip makes them: they are filtered around it. The
+other updates filter everywhere; what they take there has flowed into the tip, and J counts it
+(docs/theory/growth.md).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from cramp_cli.cracks.cloud import started_around
+from cramp_cli.numerics.kernel import kernel
+from cramp_cli.shapes.shape import offsets, place_of, weights
+from cramp_cli.state.growth import running_tips
+
+CORE, SKIN = 3.0, 1.0  # cells around a tip that are its own, and in which that fades
+SEEN = 3.0  # cells beyond that whose particles share nodes with those filtered
+
+
+def calm_running_tips(model, state, scratch, reflect) -> None:
+    """Take from the particles around running tips the velocities that nodes do not see.
+
+    Only FLIP keeps such velocities at all; the other updates filter them everywhere.
+    With P what a round trip to the grid makes of velocities, (1 - P) W (1 - P) v is taken, W the
+    weight of a place: the filter of second order of Hammerquist and Nairn (2017), near a tip only.
+    Momentum stays to round-off, energy can only fall.
+
+    reflect: gives sums in rows to the images behind symmetry planes (boundary/conditions.py)
+    """
+    width = model.lattice.width
+    for tip in running_tips(state.growth) if model.calm_tips else ():
+        place = _place_of(state.paths, tip)
+        chosen = started_around(model, state, scratch, place, (CORE + SKIN + SEEN) * width)
+        rough = state.particles.velocity[chosen]
+        rough -= _round_trip(model, state, scratch, reflect, chosen, rough)
+        rough *= _own_share(state.particles.origin[chosen], place, width)[:, None]
+        state.particles.velocity[chosen] -= rough
+        state.particles.velocity[chosen] += _round_trip(
+            model, state, scratch, reflect, chosen, rough
+        )
+
+
+class NearTips(NamedTuple):
+    """Particles around running tips, before they move."""
+
+    chosen: np.ndarray  # (m,) their numbers
+    weight: np.ndarray  # (m,) 1 beside a tip, 0 where its own ends
+    velocity: np.ndarray  # (m, dim) m/s
+
+
+def note_near_tips(model, state, scratch) -> NearTips | None:
+    """Return the particles whose update filters what flows into a running tip; None if none does.
+
+    FLIP filters nothing; what `calm_running_tips` takes in its place is booked nowhere.
+    """
+    tips = running_tips(state.growth)
+    if model.calm_tips or not tips:
+        return None
+    weight, width = np.zeros(len(state.particles.mass)), model.lattice.width
+    for tip in tips:
+        place = _place_of(state.paths, tip)
+        chosen = started_around(model, state, scratch, place, (CORE + SKIN) * width)
+        own = _own_share(state.particles.origin[chosen], place, width)
+        weight[chosen] = np.maximum(weight[chosen], own)
+    chosen = np.flatnonzero(weight)
+    return NearTips(chosen, weight[chosen], state.particles.velocity[chosen])
+
+
+def leave_to_tips(model, state, near) -> None:
+    """Take off the books of damping what the update has filtered beside running tips.
+
+    The flow J into the domain of a tip holds it: booked as damping too, it would count twice.
+    """
+    if near is None:
+        return
+    particles, (grid, particle), dt = state.particles, model.damping, model.dt
+    V, new = near.velocity, particles.velocity[near.chosen]
+    filtered = (new + particle * dt * V) / (1.0 - grid * dt)  # without the damping of the deck
+    free = V + dt * particles.acceleration[near.chosen]
+    taken = 0.5 * particles.mass[near.chosen] * np.sum((free - filtered) * (V + filtered), axis=1)
+    state.books.damping[0] -= float(near.weight @ taken)
+
+
+def _place_of(paths, tip) -> np.ndarray:
+    """Return where a tip was in the undeformed body (m); tip: 2 * crack + end."""
+    return paths.origin[paths.start[tip // 2 + tip % 2] - tip % 2]
+
+
+def _own_share(origin, place, width) -> np.ndarray:
+    """Return how far particles belong to a tip: 1 within CORE cells, 0 beyond CORE + SKIN."""
+    away = np.hypot(*(origin - place).T) / width
+    return np.clip(CORE + SKIN - away, 0.0, SKIN) / SKIN
+
+
+def _round_trip(model, state, scratch, reflect, chosen, field) -> np.ndarray:
+    """Return what the grid makes of a field (m, dim) of chosen particles (m,).
+
+    The mass of the rows is that of all particles: what lies further away counts as at rest.
+    """
+    stencil, mass, out = scratch.stencil, scratch.grid.mass, np.empty_like(field)
+    sums = np.zeros((scratch.row_count, len(model.strides)))
+    parts = [(b, *np.searchsorted(chosen, (b.lo, b.hi))) for b in model.blocks]
+    for b, lo, hi in parts:
+        own = state.particles.mass[chosen[lo:hi]]
+        _to_rows(sums, stencil, own, chosen[lo:hi], field[lo:hi], b.shape, model.strides)
+    reflect(model.conditions, scratch, sums)
+    for b, lo, hi in parts:
+        _from_rows(out[lo:hi], sums, mass, stencil, chosen[lo:hi], b.shape, model.strides)
+    return out
+
+
+@kernel
+def _to_rows(sums, stencil, mass, chosen, field, shape, strides):
+    """Add the momentum of chosen particles, of that mass (m,), to their rows."""
+    dim, steps = len(strides), offsets(strides, shape)
+    for i in range(len(chosen)):
+        p = chosen[i]
+        line, S = stencil.near[p], weights(place_of(shape, strides, stencil, p), shape)
+        for e in range(len(steps) if line < 0 else stencil.entries[line]):
+            row, w = _entry(stencil, line, e, stencil.base[p], steps, S)
+            for d in range(dim):
+                sums[row, d] += w * mass[i] * field[i, d]
+
+
+@kernel
+def _from_rows(out, sums, mass, stencil, chosen, shape, strides):
+    """Set the field of chosen particles from the momenta and masses of their rows."""
+    dim, steps = len(strides), offsets(strides, shape)
+    for i in range(len(chosen)):
+        p = chosen[i]
+        line, S = stencil.near[p], weights(place_of(shape, strides, stencil, p), shape)
+        out[i, :] = 0.0
+        for e in range(len(steps) if line < 0 else stencil.entries[line]):
+            row, w = _entry(stencil, line, e, stencil.base[p], steps, S)
+            if mass[row] > 0.0:
+                for d in range(dim):
+                    out[i, d] += w * sums[row, d] / mass[row]
+
+
+@kernel
+def _entry(stencil, line, e, base, steps, S):
+    """Return row and weight of an entry of a particle, listed or not."""
+    if line < 0:
+        return base + steps[e], S[e]
+    return stencil.table[line, e], stencil.share[line, e] * S[stencil.which[line, e]]
