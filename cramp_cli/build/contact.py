@@ -8,6 +8,8 @@ from cramp_cli.cracks.contact import LAWS, ContactLaws
 from cramp_cli.deck.contact_groups import group_of_crack, groups_of_bodies, names_of_groups
 from cramp_cli.state.groups import Groups
 
+SAME = 1e-6  # cells; pieces of an outline nearer than this to a straight line are one
+
 
 def build_crack_laws(deck) -> ContactLaws:
     """Return the law of every crack."""
@@ -37,8 +39,11 @@ def build_groups(deck) -> Groups:
     return Groups(of_body, np.array(cracks, dtype=np.int64))
 
 
-def build_body_contact(deck, events) -> BodyContact | None:
-    """Return how the bodies touch; None if they do not. events: EventList that grows by theirs."""
+def build_body_contact(deck, events, width) -> BodyContact | None:
+    """Return how the bodies touch; None if they do not.
+
+    events: EventList that grows by theirs; width: of a cell (m)
+    """
     section = deck.contact
     if section.bodies is None:
         return None
@@ -60,20 +65,25 @@ def build_body_contact(deck, events) -> BodyContact | None:
         if b.rigid
     )
     tables = BodyLaws(laws[0].astype(np.int64), *(table.copy() for table in laws[1:]))
-    outlines = _outlines(deck, group, names)
+    outlines = build_outlines(deck, group, len(names), width)
     return BodyContact(tuple(names), tables, NORMALS[section.normal], outlines, rigid)
 
 
-def _outlines(deck, group, names) -> Outlines:
-    """Return the outlines of all rigid bodies, by contact group, with the bodies at their left."""
+def build_outlines(deck, group, groups, width) -> Outlines:
+    """Return the outlines of the rigid bodies, without what later bodies and holes cover.
+
+    group: of every body, by name; groups: how many; width: of a cell (m)
+    """
     from shapely import get_parts
     from shapely.geometry.polygon import orient
 
-    pieces = [np.zeros((0, 4))] * len(names)
-    for body in deck.bodies:
+    rings = [[] for _ in range(groups)]
+    for n, body in enumerate(deck.bodies):
         if body.rigid:
-            parts = [orient(part) for part in get_parts(body.shape.outline())]
-            rings = [np.array(r.coords) for p in parts for r in (p.exterior, *p.interiors)]
-            ends = [np.hstack([ring[:-1], ring[1:]]) for ring in rings]
-            pieces[group[body.name]] = np.concatenate(ends)
-    return make_outlines(pieces)
+            left = body.shape.outline()
+            for later in deck.bodies[n + 1 :]:
+                left = left - later.shape.outline()
+            for part in get_parts(left.simplify(SAME * width)):
+                ends = orient(part)  # the body is at the left of its rings
+                rings[group[body.name]] += [r.coords for r in (ends.exterior, *ends.interiors)]
+    return make_outlines(rings)

@@ -9,8 +9,8 @@ from cramp_cli.contact.outline import Outlines
 from cramp_cli.cracks.contact import ADHESIVE
 from cramp_cli.state.signal import Signal
 
-AVERAGE, LARGER, LOGISTIC, OUTLINE = 0, 1, 2, 3
-NORMALS = {"average": AVERAGE, "larger": LARGER, "logistic": LOGISTIC, "outline": OUTLINE}
+AVERAGE, LARGER, LOGISTIC = 0, 1, 2
+NORMALS = {"average": AVERAGE, "larger": LARGER, "logistic": LOGISTIC}
 
 
 class BodyLaws(NamedTuple):
@@ -39,8 +39,8 @@ class BodyContact:
 
     names: tuple  # of the contact groups, for their forces
     laws: BodyLaws
-    normal: int  # AVERAGE, LARGER, LOGISTIC or OUTLINE
-    outlines: Outlines
+    normal: int  # AVERAGE, LARGER or LOGISTIC
+    outlines: Outlines  # of rigid bodies, of which the normals beside them are
     rigid: tuple = ()  # of RigidBody
 
     @property
@@ -55,7 +55,7 @@ class BodyContact:
         return flags
 
     def rigid_ways(self, particles) -> np.ndarray:
-        """Return how far every contact group has gone (groups, dim), zero where it is not rigid."""
+        """Return which way rigid bodies have gone (groups, dim), m; zero for other groups."""
         ways = np.zeros((len(self.names), particles.position.shape[1]))
         for one in self.rigid:
             p = np.argmax(particles.body == one.body)

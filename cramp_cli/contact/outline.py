@@ -1,7 +1,8 @@
 """Normals beside a rigid body, of its own outline: it has one, so nothing need be fitted.
 
-Pieces of the outlines of all rigid bodies are listed one after the other, with the body at their
-left. The normal at a node is that of the nearest piece, or points away from the nearest corner.
+The outline is straight pieces with the body at their left. The normal at a node is that of the
+piece next to it. There is none within REACH of a corner, where the surface of the other body decides
+how they touch: there it is fitted as between elastic bodies.
 """
 
 from math import inf, sqrt
@@ -10,50 +11,90 @@ from typing import NamedTuple
 import numpy as np
 
 from cramp_cli.numerics.kernel import kernel
+from cramp_cli.numerics.vector import vector
+
+REACH = 1.5  # cells; a node that sees both bodies is nearer to the surface
+CORNER = np.cos(np.radians(20.0))  # of the angle by which an outline turns at a corner, or more
+FACING = 0.5  # cosine; a piece with the other body more than this at its back is not meant
 
 
 class Outlines(NamedTuple):
-    """Straight pieces of the outlines of the rigid bodies, as they were at the start."""
+    """Straight pieces of the outlines of all rigid bodies, where they were at the start."""
 
-    first: np.ndarray  # (groups + 1,) first piece of each contact group; none of an elastic one
-    ends: np.ndarray  # (pieces, 4) x and y of both ends (m)
+    first: np.ndarray  # (groups + 1,) first piece of each contact group; elastic ones have none
+    start: np.ndarray  # (pieces, 2) where a piece starts (m)
+    along: np.ndarray  # (pieces, 2) unit vector along it
+    length: np.ndarray  # (pieces,) m
+    corner: np.ndarray  # (pieces,) 1 where the outline turns sharply at its start
 
 
-def make_outlines(pieces: list) -> Outlines:
-    """Return the outlines of all contact groups; pieces: for each group an array (k, 4)."""
-    first = np.cumsum([0, *map(len, pieces)])
-    return Outlines(first, np.concatenate([np.zeros((0, 4)), *pieces]))
+def make_outlines(rings: list) -> Outlines:
+    """Return the outlines of all contact groups.
+
+    rings: for each group a list of closed lines (k + 1, 2) with the body at their left (m)
+    """
+    first = np.cumsum([0, *(sum(len(ring) - 1 for ring in group) for group in rings)])
+    tables = [_pieces(np.asarray(ring)) for group in rings for ring in group]
+    none = (np.zeros((0, 2)), np.zeros((0, 2)), np.zeros(0), np.zeros(0, dtype=np.int64))
+    return Outlines(first, *(np.concatenate(column) for column in zip(none, *tables, strict=True)))
+
+
+def _pieces(ring):
+    """Return start, unit vector, length and corner of the pieces of a closed line (k + 1, 2)."""
+    edges = np.diff(ring, axis=0)
+    length = np.hypot(*edges.T)
+    along = edges / length[:, None]
+    turns = (along * np.roll(along, 1, axis=0)).sum(axis=1) < CORNER
+    return ring[:-1], along, length, turns.astype(np.int64)
 
 
 @kernel
-def outward_normal(outlines, group, x, y):
-    """Return the outward unit normal of a rigid body next to a place.
+def nearest_piece(outlines, group, x, y, tx, ty):
+    """Return the piece of a rigid body's outline next to a place, and its point there; or -1.
 
-    x, y: where the place was for the body at the start (m)
+    x, y: where the place was for the body at the start (m); tx, ty: unit vector towards the body;
+    its far sides do not count, however thin it is
     """
-    nearest, nx, ny = inf, 0.0, 0.0
+    nearest, found, fx, fy = inf, -1, 0.0, 0.0
     for s in range(outlines.first[group], outlines.first[group + 1]):
-        x0, y0 = outlines.ends[s, 0], outlines.ends[s, 1]
-        dx, dy = outlines.ends[s, 2] - x0, outlines.ends[s, 3] - y0
-        length = sqrt(dx * dx + dy * dy)
-        along = min(max(((x - x0) * dx + (y - y0) * dy) / length**2, 0.0), 1.0)
-        ox, oy = x - x0 - along * dx, y - y0 - along * dy
-        away = sqrt(ox * ox + oy * oy)
+        dx, dy = outlines.along[s, 0], outlines.along[s, 1]
+        if dy * tx - dx * ty > FACING:
+            continue
+        x0, y0 = outlines.start[s, 0], outlines.start[s, 1]
+        t = min(max((x - x0) * dx + (y - y0) * dy, 0.0), outlines.length[s])
+        px, py = x0 + t * dx, y0 + t * dy
+        away = (x - px) ** 2 + (y - py) ** 2
         if away < nearest:
-            nearest, nx, ny = away, dy / length, -dx / length
-            if (along == 0.0 or along == 1.0) and away > 0.0:  # of a corner
-                side = 1.0 if ox * nx + oy * ny >= 0.0 else -1.0
-                nx, ny = side * ox / away, side * oy / away
-    return nx, ny
+            nearest, found, fx, fy = away, s, px, py
+    return found, fx, fy
 
 
 @kernel
-def normal_beside_rigid(pairs, i, place, rigid, outlines, way):
-    """Return the normal from row a to row b of pair i, of which one body is rigid.
+def beside_corner(outlines, group, x, y, reach):
+    """Tell whether a corner of a rigid body's outline is nearer to a place than `reach` (m)."""
+    for s in range(outlines.first[group], outlines.first[group + 1]):
+        dx, dy = x - outlines.start[s, 0], y - outlines.start[s, 1]
+        if outlines.corner[s] and dx * dx + dy * dy < reach * reach:
+            return True
+    return False
 
-    place: of the node (m); rigid: (groups,) 1 for rigid ones; way: (groups, dim) gone so far (m)
+
+@kernel
+def outline_normal(clouds, pairs, i, place, width, rigid, outlines, way, strides):
+    """Return the unit normal from body a to body b of pair i, or (0, 0) where no outline tells it.
+
+    place: of the node (m); width: of a cell (m); rigid: (groups,) 1 for rigid bodies;
+    way: (groups, dim) which these have gone (m)
     """
-    ga, gb = pairs.group[i, 0], pairs.group[i, 1]
-    group, sign = (ga, 1.0) if rigid[ga] else (gb, -1.0)
-    nx, ny = outward_normal(outlines, group, place[0] - way[group, 0], place[1] - way[group, 1])
-    return sign * nx, sign * ny
+    first_is = rigid[pairs.group[i, 0]] == 1
+    me, other, sign = (0, 1, 1.0) if first_is else (1, 0, -1.0)
+    group = pairs.group[i, me]
+    tx, ty = vector(strides, clouds.slope, pairs.row[i, other])
+    size = sqrt(tx * tx + ty * ty)
+    if not rigid[group] or size == 0.0:
+        return 0.0, 0.0
+    x, y = place[0] - way[group, 0], place[1] - way[group, 1]
+    s, fx, fy = nearest_piece(outlines, group, x, y, tx / size, ty / size)
+    if s < 0 or beside_corner(outlines, group, fx, fy, REACH * width):
+        return 0.0, 0.0
+    return sign * outlines.along[s, 1], -sign * outlines.along[s, 0]

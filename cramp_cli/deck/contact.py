@@ -81,11 +81,11 @@ class ContactSection(Section):
     pairs: tuple[PairContact, ...] = Field(
         (), description="pairs of bodies with a law of their own; with `bodies`"
     )
-    normal: Literal["logistic", "average", "larger", "outline"] = Field(
+    normal: Literal["logistic", "average", "larger"] = Field(
         "logistic",
         description="normals between bodies: of the plane that best parts their particles, or "
-        "gradients of the volume: the mean of both, the larger one; with `outline` those of the "
-        "shape beside a rigid body, as by `logistic` elsewhere",
+        "gradients of the volume: the mean of both, the larger one; beside a rigid body, away from "
+        "its corners, that of its shape counts",
     )
 
     def wrong_values(self) -> Iterator[Wrong]:
