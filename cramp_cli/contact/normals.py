@@ -45,7 +45,9 @@ def _add_to_window(pairs, i, node):
 
 
 @kernel
-def find_normals(pairs, clouds, stencil, particles, half, laws, kind, rigid, flat, lattice, strides):
+def find_normals(
+    pairs, clouds, stencil, particles, half, laws, kind, rigid, flat, lattice, strides
+):
     """Find normal and separation of all pairs; a pair without a normal is left apart.
 
     half: (n,) half sides of the particles (m); kind: of fitted normals; rigid: (groups,) 1 for

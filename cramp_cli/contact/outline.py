@@ -1,8 +1,8 @@
 """Normals beside a rigid body, of its own outline: it has one, so nothing need be fitted.
 
 The outline is straight pieces with the body at their left. The normal at a node is that of the
-piece next to it. There is none within REACH of a corner, where the surface of the other body decides
-how they touch: there it is fitted as between elastic bodies.
+piece next to it. There is none within REACH of a corner, where the surface of the other body
+decides how they touch: there it is fitted as between elastic bodies.
 """
 
 from math import inf, sqrt

@@ -7,7 +7,7 @@ import pytest
 from support import advance, build_deck, locate, read
 
 from cramp_cli.contact.bodies import find_pairs
-from cramp_cli.contact.outline import make_outlines, outward_normal
+from cramp_cli.contact.outline import beside_corner, make_outlines, nearest_piece
 from cramp_cli.contact.pairs import group_of
 from cramp_cli.cracks.contact import OPEN
 from cramp_cli.numerics import team
@@ -90,13 +90,52 @@ def test_round_off_does_not_part_flush_faces():
         assert (pairs_of(scratch).gap < 0.0).all()
 
 
-def test_a_rigid_body_has_the_normals_of_its_outline():
-    """Along a side, beyond a corner, and within: always outwards."""
-    box = np.array([[0, 0, 4, 0], [4, 0, 4, 2], [4, 2, 0, 2], [0, 2, 0, 0]], dtype=float)
-    outlines = make_outlines([np.zeros((0, 4)), box])
-    for place, wanted in {(2.0, 2.5): (0, 1), (2.0, 1.5): (0, 1), (4.5, 1.0): (1, 0)}.items():
-        assert outward_normal(outlines, 1, *place) == pytest.approx(wanted)
-    assert outward_normal(outlines, 1, 5.0, 3.0) == pytest.approx((0.5**0.5, 0.5**0.5))
+PLATE = [[(0, 0), (4, 0), (4, 0.5), (0, 0.5), (0, 0)]]
+
+
+def test_the_outline_of_a_body_has_corners_and_sides():
+    outlines = make_outlines([[], PLATE])
+    assert outlines.first.tolist() == [0, 0, 4]
+    assert outlines.corner.tolist() == [1, 1, 1, 1]
+    assert beside_corner(outlines, 1, 3.5, 0.5, 0.6)
+    assert not beside_corner(outlines, 1, 3.0, 0.5, 0.6)
+    t = np.linspace(0.0, 2.0 * np.pi, 65)
+    assert not make_outlines([[np.stack([np.cos(t), np.sin(t)], axis=1)]]).corner.any()
+
+
+@pytest.mark.parametrize(("below", "side"), [(-0.3, 2), (0.4, 2), (0.9, 2)])
+def test_a_thin_plate_has_the_normal_of_the_side_that_is_touched(below, side):
+    """A body above it, a node above, in the upper and below the lower half of the plate."""
+    outlines = make_outlines([[], PLATE])
+    found, x, y = nearest_piece(outlines, 1, 2.0, 0.5 - below, 0.0, -1.0)
+    assert (found, x, y) == (side, 2.0, 0.5)
+
+
+@pytest.mark.parametrize("wall_first", [True, False])
+def test_normals_beside_a_rigid_body_are_of_its_outline(wall_first):
+    """All of them, on an inclined plane that has moved; the other body has a face of steps."""
+    n, t = np.array([0.8, 0.6]), np.array([-0.6, 0.8])
+
+    def strip(name, low, high, end, **more):
+        corners = [(low, -end), (high, -end), (high, end), (low, end)]
+        points = [(a * n + b * t).tolist() for a, b in corners]
+        return {"name": name, "shape": {"type": "polygon", "points": points}} | more
+
+    wall = strip("wall", -4.0, 0.0, 9.0, rigid={"velocity": [0.01, 0.0]})
+    body = strip("body", 0.05, 4.0, 3.0, material="m")
+    scene = deck(*((wall, body) if wall_first else (body, wall)), grid=GRID)
+    model, state, scratch = build_deck(scene)
+    advance(model, state, scratch, 100)
+    pairs, sign = pairs_of(scratch), 1.0 if wall_first else -1.0
+    assert len(pairs.normal) > 10
+    np.testing.assert_allclose(pairs.normal, np.tile(sign * n, (len(pairs.normal), 1)), atol=1e-12)
+
+
+def test_holes_and_later_bodies_are_no_part_of_an_outline():
+    wall = box("wall", (0, 9), (0, 9), rigid={})
+    hole = box("hole", (6, 9), (0, 9), hole=True)
+    outlines = build_deck(deck(LEFT, wall, hole, grid=GRID))[0].between_bodies.outlines
+    assert outlines.start.max(axis=0).tolist() == [6.0, 9.0]
 
 
 def turned_boxes(angle, contact):
