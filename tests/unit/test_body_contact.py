@@ -133,8 +133,9 @@ def test_normals_beside_a_rigid_body_are_of_its_outline(wall_first):
 
 def test_holes_and_later_bodies_are_no_part_of_an_outline():
     wall = box("wall", (0, 9), (0, 9), rigid={})
-    hole = box("hole", (6, 9), (0, 9), hole=True)
-    outlines = build_deck(deck(LEFT, wall, hole, grid=GRID))[0].between_bodies.outlines
+    hole = {"name": "hole", "hole": True, "shape": box("", (6, 9), (0, 9))["shape"]}
+    near = box("near", (-4, 0), (0, 6))
+    outlines = build_deck(deck(near, wall, hole, grid=GRID))[0].between_bodies.outlines
     assert outlines.start.max(axis=0).tolist() == [6.0, 9.0]
 
 
