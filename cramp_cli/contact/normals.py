@@ -62,9 +62,9 @@ def find_normals(
         if laws.kind[pairs.group[i, 0], pairs.group[i, 1]] == GLUED:
             continue
         place = (lower[0] + width * (node % strides[1]), lower[1] + width * (node // strides[1]))
-        nx, ny = outline_normal(clouds, pairs, i, place, width, *rigid, strides)
+        x = particles.position
+        nx, ny = outline_normal(clouds, stencil, x, pairs, i, place, width, *rigid)
         if nx == 0.0 and ny == 0.0:
-            x = particles.position
             nx, ny = fitted_normal(clouds, stencil, x, pairs, i, place, width, kind, strides)
         nx, ny = nx * (1 - flat[node, 0]), ny * (1 - flat[node, 1])
         size = sqrt(nx * nx + ny * ny)

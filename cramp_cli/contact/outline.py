@@ -5,17 +5,16 @@ piece next to it. There is none within REACH of a corner, where the surface of t
 decides how they touch: there it is fitted as between elastic bodies.
 """
 
-from math import inf, sqrt
+from math import inf
 from typing import NamedTuple
 
 import numpy as np
 
+from cramp_cli.contact.clouds import particle_of
 from cramp_cli.numerics.kernel import kernel
-from cramp_cli.numerics.vector import vector
 
 REACH = 1.5  # cells; a node that sees both bodies is nearer to the surface
 CORNER = np.cos(np.radians(20.0))  # of the angle by which an outline turns at a corner, or more
-FACING = 0.5  # cosine; a piece with the other body more than this at its back is not meant
 
 
 class Outlines(NamedTuple):
@@ -49,18 +48,18 @@ def _pieces(ring):
 
 
 @kernel
-def nearest_piece(outlines, group, x, y, tx, ty):
+def nearest_piece(outlines, group, x, y, ox, oy):
     """Return the piece of a rigid body's outline next to a place, and its point there; or -1.
 
-    x, y: where the place was for the body at the start (m); tx, ty: unit vector towards the body;
-    its far sides do not count, however thin it is
+    x, y: the place; ox, oy: of the other body beside it; both from where the rigid one was at the
+    start (m). Pieces with the other body at their back do not count, however thin the rigid one is
     """
     nearest, found, fx, fy = inf, -1, 0.0, 0.0
     for s in range(outlines.first[group], outlines.first[group + 1]):
         dx, dy = outlines.along[s, 0], outlines.along[s, 1]
-        if dy * tx - dx * ty > FACING:
-            continue
         x0, y0 = outlines.start[s, 0], outlines.start[s, 1]
+        if (ox - x0) * dy < (oy - y0) * dx:
+            continue
         t = min(max((x - x0) * dx + (y - y0) * dy, 0.0), outlines.length[s])
         px, py = x0 + t * dx, y0 + t * dy
         away = (x - px) ** 2 + (y - py) ** 2
@@ -80,21 +79,30 @@ def beside_corner(outlines, group, x, y, reach):
 
 
 @kernel
-def outline_normal(clouds, pairs, i, place, width, rigid, outlines, way, strides):
+def middle(clouds, stencil, position, row):
+    """Return the mean of the places of a row's particles (m); the row must have some."""
+    x, y, count, entry = 0.0, 0.0, 0, clouds.head[row]
+    while entry >= 0:
+        p = particle_of(stencil, entry)
+        x, y, count = x + position[p, 0], y + position[p, 1], count + 1
+        entry = clouds.link[entry]
+    return x / count, y / count
+
+
+@kernel
+def outline_normal(clouds, stencil, position, pairs, i, place, width, rigid, outlines, way):
     """Return the unit normal from body a to body b of pair i, or (0, 0) where no outline tells it.
 
     place: of the node (m); width: of a cell (m); rigid: (groups,) 1 for rigid bodies;
     way: (groups, dim) which these have gone (m)
     """
-    first_is = rigid[pairs.group[i, 0]] == 1
-    me, other, sign = (0, 1, 1.0) if first_is else (1, 0, -1.0)
+    me, other, sign = (0, 1, 1.0) if rigid[pairs.group[i, 0]] else (1, 0, -1.0)
     group = pairs.group[i, me]
-    tx, ty = vector(strides, clouds.slope, pairs.row[i, other])
-    size = sqrt(tx * tx + ty * ty)
-    if not rigid[group] or size == 0.0:
+    if not rigid[group]:
         return 0.0, 0.0
-    x, y = place[0] - way[group, 0], place[1] - way[group, 1]
-    s, fx, fy = nearest_piece(outlines, group, x, y, tx / size, ty / size)
+    ox, oy = middle(clouds, stencil, position, pairs.row[i, other])
+    wx, wy = way[group, 0], way[group, 1]
+    s, fx, fy = nearest_piece(outlines, group, place[0] - wx, place[1] - wy, ox - wx, oy - wy)
     if s < 0 or beside_corner(outlines, group, fx, fy, REACH * width):
         return 0.0, 0.0
     return sign * outlines.along[s, 1], -sign * outlines.along[s, 0]
