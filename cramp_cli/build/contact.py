@@ -3,9 +3,12 @@
 import numpy as np
 
 from cramp_cli.contact.laws import NORMALS, BodyContact, BodyLaws, RigidBody
+from cramp_cli.contact.outline import Outlines, make_outlines
 from cramp_cli.cracks.contact import LAWS, ContactLaws
 from cramp_cli.deck.contact_groups import group_of_crack, groups_of_bodies, names_of_groups
 from cramp_cli.state.groups import Groups
+
+SAME = 1e-6  # cells; pieces of an outline nearer than this to a straight line are one
 
 
 def build_crack_laws(deck) -> ContactLaws:
@@ -36,8 +39,11 @@ def build_groups(deck) -> Groups:
     return Groups(of_body, np.array(cracks, dtype=np.int64))
 
 
-def build_body_contact(deck, events) -> BodyContact | None:
-    """Return how the bodies touch; None if they do not. events: EventList that grows by theirs."""
+def build_body_contact(deck, events, width) -> BodyContact | None:
+    """Return how the bodies touch; None if they do not.
+
+    events: EventList that grows by theirs; width: of a cell (m)
+    """
     section = deck.contact
     if section.bodies is None:
         return None
@@ -59,4 +65,25 @@ def build_body_contact(deck, events) -> BodyContact | None:
         if b.rigid
     )
     tables = BodyLaws(laws[0].astype(np.int64), *(table.copy() for table in laws[1:]))
-    return BodyContact(tuple(names), tables, NORMALS[section.normal], rigid)
+    outlines = build_outlines(deck, group, len(names), width)
+    return BodyContact(tuple(names), tables, NORMALS[section.normal], outlines, rigid)
+
+
+def build_outlines(deck, group, groups, width) -> Outlines:
+    """Return the outlines of the rigid bodies, without what later bodies and holes cover.
+
+    group: of every body, by name; groups: how many; width: of a cell (m)
+    """
+    from shapely import get_parts
+    from shapely.geometry.polygon import orient
+
+    rings = [[] for _ in range(groups)]
+    for n, body in enumerate(deck.bodies):
+        if body.rigid:
+            left = body.shape.outline()
+            for later in deck.bodies[n + 1 :]:
+                left = left - later.shape.outline()
+            for part in get_parts(left.simplify(SAME * width)):
+                ends = orient(part)  # the body is at the left of its rings
+                rings[group[body.name]] += [r.coords for r in (ends.exterior, *ends.interiors)]
+    return make_outlines(rings)

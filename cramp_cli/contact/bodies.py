@@ -43,7 +43,8 @@ def find_pairs(model, state, scratch) -> None:
     list_windows(meeting.pairs, model.strides)
     who = (meeting.pairs, clouds, stencil, state.particles, meeting.half)
     lattice = (model.lattice.lower, model.lattice.width)
-    how = (between.laws, between.normal, meeting.flat, lattice, model.strides)
+    rigid = (meeting.rigid, between.outlines, between.rigid_ways(state.particles))
+    how = (between.laws, between.normal, rigid, meeting.flat, lattice, model.strides)
     find_normals(*who, *how)
     if between.adhesive:
         recall_bonds(meeting.pairs, between.laws, state.bonds)

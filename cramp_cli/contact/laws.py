@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from cramp_cli.contact.outline import Outlines
 from cramp_cli.cracks.contact import ADHESIVE
 from cramp_cli.state.signal import Signal
 
@@ -39,6 +40,7 @@ class BodyContact:
     names: tuple  # of the contact groups, for their forces
     laws: BodyLaws
     normal: int  # AVERAGE, LARGER or LOGISTIC
+    outlines: Outlines  # of rigid bodies, of which the normals beside them are
     rigid: tuple = ()  # of RigidBody
 
     @property
@@ -51,6 +53,14 @@ class BodyContact:
         flags = np.zeros(len(self.names), dtype=np.int64)
         flags[[one.group for one in self.rigid]] = 1
         return flags
+
+    def rigid_ways(self, particles) -> np.ndarray:
+        """Return which way rigid bodies have gone (groups, dim), m; zero for other groups."""
+        ways = np.zeros((len(self.names), particles.position.shape[1]))
+        for one in self.rigid:
+            p = np.argmax(particles.body == one.body)
+            ways[one.group] = particles.position[p] - particles.origin[p]
+        return ways
 
     def rigid_velocities(self, state, dim: int) -> np.ndarray:
         """Return the prescribed velocity of every contact group (m/s), zero where there is none."""

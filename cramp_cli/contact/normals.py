@@ -10,6 +10,7 @@ from math import sqrt
 from cramp_cli.contact.gradient import average_gradient, larger_gradient
 from cramp_cli.contact.laws import AVERAGE, LARGER
 from cramp_cli.contact.logistic import logistic_normal
+from cramp_cli.contact.outline import outline_normal
 from cramp_cli.contact.separation import separation
 from cramp_cli.cracks.contact import GLUED
 from cramp_cli.numerics.kernel import kernel
@@ -44,12 +45,15 @@ def _add_to_window(pairs, i, node):
 
 
 @kernel
-def find_normals(pairs, clouds, stencil, particles, half, laws, kind, flat, lattice, strides):
+def find_normals(
+    pairs, clouds, stencil, particles, half, laws, kind, rigid, flat, lattice, strides
+):
     """Find normal and separation of all pairs; a pair without a normal is left apart.
 
-    half: (n,) half sides of the particles (m); kind: of normal; flat: (nodes, dim) 1 along the
-    normals of symmetry planes through a node, along which no normal points; lattice: lower corner
-    (m) and width (m)
+    half: (n,) half sides of the particles (m); kind: of fitted normals; rigid: (groups,) 1 for
+    rigid bodies, their outlines, and which way they have gone (groups, dim), m; flat: (nodes, dim)
+    1 along the normals of symmetry planes through a node, along which no normal points;
+    lattice: lower corner (m) and width (m)
     """
     lower, width = lattice
     for i in range(pairs.used[0]):
@@ -58,12 +62,10 @@ def find_normals(pairs, clouds, stencil, particles, half, laws, kind, flat, latt
         if laws.kind[pairs.group[i, 0], pairs.group[i, 1]] == GLUED:
             continue
         place = (lower[0] + width * (node % strides[1]), lower[1] + width * (node // strides[1]))
-        if kind == AVERAGE:
-            nx, ny = average_gradient(clouds, pairs, i, strides)
-        elif kind == LARGER:
-            nx, ny = larger_gradient(clouds, pairs, i, strides)
-        else:
-            nx, ny = logistic_normal(clouds, stencil, particles.position, pairs, i, place, width)
+        x = particles.position
+        nx, ny = outline_normal(clouds, stencil, x, pairs, i, place, width, *rigid)
+        if nx == 0.0 and ny == 0.0:
+            nx, ny = fitted_normal(clouds, stencil, x, pairs, i, place, width, kind, strides)
         nx, ny = nx * (1 - flat[node, 0]), ny * (1 - flat[node, 1])
         size = sqrt(nx * nx + ny * ny)
         if size > 0.0:
@@ -71,3 +73,13 @@ def find_normals(pairs, clouds, stencil, particles, half, laws, kind, flat, latt
             pairs.normal[i, 0], pairs.normal[i, 1] = nx, ny
             apart = separation(clouds, stencil, particles, half, a, b, nx, ny)
             pairs.gap[i] = apart - FLUSH * width
+
+
+@kernel
+def fitted_normal(clouds, stencil, position, pairs, i, place, width, kind, strides):
+    """Return a vector from body a to body b of pair i, told by the particles of both."""
+    if kind == AVERAGE:
+        return average_gradient(clouds, pairs, i, strides)
+    if kind == LARGER:
+        return larger_gradient(clouds, pairs, i, strides)
+    return logistic_normal(clouds, stencil, position, pairs, i, place, width)

@@ -84,7 +84,8 @@ class ContactSection(Section):
     normal: Literal["logistic", "average", "larger"] = Field(
         "logistic",
         description="normals between bodies: of the plane that best parts their particles, or "
-        "gradients of the volume: the mean of both, the larger one",
+        "gradients of the volume: the mean of both, the larger one; beside a rigid body, away from "
+        "its corners, that of its shape counts",
     )
 
     def wrong_values(self) -> Iterator[Wrong]:

@@ -7,6 +7,7 @@ import pytest
 from support import advance, build_deck, locate, read
 
 from cramp_cli.contact.bodies import find_pairs
+from cramp_cli.contact.outline import beside_corner, make_outlines, nearest_piece
 from cramp_cli.contact.pairs import group_of
 from cramp_cli.cracks.contact import OPEN
 from cramp_cli.numerics import team
@@ -87,6 +88,55 @@ def test_round_off_does_not_part_flush_faces():
             shape |= {key: [0.1 * x for x in shape[key]] for key in ("lower", "upper")}
         *_, scratch = met(a, b, grid={"cell": 0.1})
         assert (pairs_of(scratch).gap < 0.0).all()
+
+
+PLATE = [[(0, 0), (4, 0), (4, 0.5), (0, 0.5), (0, 0)]]
+
+
+def test_the_outline_of_a_body_has_corners_and_sides():
+    outlines = make_outlines([[], PLATE])
+    assert outlines.first.tolist() == [0, 0, 4]
+    assert outlines.corner.tolist() == [1, 1, 1, 1]
+    assert beside_corner(outlines, 1, 3.5, 0.5, 0.6)
+    assert not beside_corner(outlines, 1, 3.0, 0.5, 0.6)
+    t = np.linspace(0.0, 2.0 * np.pi, 65)
+    assert not make_outlines([[np.stack([np.cos(t), np.sin(t)], axis=1)]]).corner.any()
+
+
+@pytest.mark.parametrize("below", [-0.3, 0.4, 0.9])
+def test_a_thin_plate_has_the_normal_of_the_side_that_is_touched(below):
+    """A body above it; a node above the plate, in its lower half, and below it."""
+    outlines = make_outlines([[], PLATE])
+    found, x, y = nearest_piece(outlines, 1, 2.0, 0.5 - below, 3.0, 0.51)
+    assert (found, x, y) == (2, 2.0, 0.5)
+
+
+@pytest.mark.parametrize("wall_first", [True, False])
+def test_normals_beside_a_rigid_body_are_of_its_outline(wall_first):
+    """All of them, on an inclined plane that has moved; the other body has a face of steps."""
+    n, t = np.array([0.8, 0.6]), np.array([-0.6, 0.8])
+
+    def strip(name, low, high, end, **more):
+        corners = [(low, -end), (high, -end), (high, end), (low, end)]
+        points = [(a * n + b * t).tolist() for a, b in corners]
+        return {"name": name, "shape": {"type": "polygon", "points": points}} | more
+
+    wall = strip("wall", -4.0, 0.0, 9.0, rigid={"velocity": [0.01, 0.0]})
+    body = strip("body", 0.05, 4.0, 3.0, material="m")
+    scene = deck(*((wall, body) if wall_first else (body, wall)), grid=GRID)
+    model, state, scratch = build_deck(scene)
+    advance(model, state, scratch, 100)
+    pairs, sign = pairs_of(scratch), 1.0 if wall_first else -1.0
+    assert len(pairs.normal) > 10
+    np.testing.assert_allclose(pairs.normal, np.tile(sign * n, (len(pairs.normal), 1)), atol=1e-12)
+
+
+def test_holes_and_later_bodies_are_no_part_of_an_outline():
+    wall = box("wall", (0, 9), (0, 9), rigid={})
+    hole = {"name": "hole", "hole": True, "shape": box("", (6, 9), (0, 9))["shape"]}
+    near = box("near", (-4, 0), (0, 6))
+    outlines = build_deck(deck(near, wall, hole, grid=GRID))[0].between_bodies.outlines
+    assert outlines.start.max(axis=0).tolist() == [6.0, 9.0]
 
 
 def turned_boxes(angle, contact):

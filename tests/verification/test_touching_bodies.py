@@ -150,41 +150,37 @@ def incline(law, turned):
 
 
 def slide(law, turned=False, time=40e-3):
-    """Return time, way and velocity of the block down the incline."""
+    """Return time, way and velocity of the block down the incline, and its velocity off the plane.
+
+    The way and both velocities are those of the centre of mass.
+    """
     model, state, scratch = build_deck(incline(law, turned))
     advance(model, state, scratch, round(time / model.dt))
     p, down = state.particles, -np.array([COS, SIN] if turned else [1.0, 0.0])
-    mine = p.body == 0
+    mine, off = p.body == 0, np.array([-SIN, COS] if turned else [0.0, 1.0])
     way = (p.position - p.origin)[mine].mean(axis=0) @ down
-    return state.time, way, p.velocity[mine].mean(axis=0) @ down
+    velocity = p.velocity[mine].mean(axis=0)
+    return state.time, way, velocity @ down, velocity @ off
 
 
+@pytest.mark.parametrize("turned", [False, True])
 @pytest.mark.parametrize("mu", [0.0, 0.2, 0.4])  # tan 30 = 0.577
-def test_block_slides(mu):
-    """Wanted: way and speed within 1 %. Reached: 1.2, 2.2 and 5.4 % too slow.
+def test_block_slides(mu, turned):
+    """Way and speed within 1 %, on a plane along the grid and on one across it.
 
-    At the leading corner normals lean by half a degree, so the block of 12 by 6 cells brakes as if
-    mu were 0.007 to 0.010 higher, whatever mu is.
+    At mu = 0.4 the block begins to rock and hops (docs/theory/contact.md). Friction is mu times
+    the force of the plane, so while it flies off the plane at a speed it is slower by mu times it.
     """
-    time, way, speed = slide({"law": "frictional", "mu": mu})
+    time, way, speed, off = slide({"law": "frictional", "mu": mu}, turned)
     wanted = incline_slide(time, ANGLE, mu, RAMP)
-    more = (1.0 - speed / wanted[1]) * (SIN - mu * COS) / COS
-    print(
-        f"mu {mu}: way {way / wanted[0] - 1:+.4f}, speed {speed / wanted[1] - 1:+.4f}, {more:.4f}"
-    )
-    assert 0.0 < more < 0.012
+    seen = (way / wanted[0] - 1.0, speed / wanted[1] - 1.0, mu * off / wanted[1])
+    print(f"mu {mu}: way {seen[0]:+.4f}, speed {seen[1]:+.4f}, of this hops {-seen[2]:+.4f}")
+    assert way == pytest.approx(wanted[0], rel=0.01)
+    assert speed + mu * off == pytest.approx(wanted[1], rel=0.01)
 
 
+@pytest.mark.parametrize("turned", [False, True])
 @pytest.mark.parametrize("law", [{"law": "frictional", "mu": 0.7}, {"law": "stick"}])
-def test_friction_holds_the_block(law):
-    time, way, _ = slide(law)
+def test_friction_holds_the_block(law, turned):
+    time, way, *_ = slide(law, turned)
     assert abs(way) < 0.01 * incline_slide(time, ANGLE, 0.0, RAMP)[0]
-
-
-# The surface of an elastic body that is inclined to the grid is steps of half a cell, which catch.
-@pytest.mark.parametrize(("mu", "late"), [(0.0, 0.10), (0.2, 0.15)])  # measured: 0.067, 0.114
-def test_block_of_steps_slides_too_slowly(mu, late):
-    time, way, _ = slide({"law": "frictional", "mu": mu}, turned=True)
-    behind = 1.0 - way / incline_slide(time, ANGLE, mu, RAMP)[0]
-    print(f"steps, mu {mu}: {behind:.4f} behind")
-    assert 0.0 < behind < late
