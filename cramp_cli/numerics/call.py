@@ -66,8 +66,10 @@ def _recognize(value):
         return id(value)
     if kind is np.ndarray:
         return value.dtype, value.ndim, value.flags.num
-    if not issubclass(kind, tuple):
+    if kind in _NUMBERS:
         return kind
+    if not issubclass(kind, tuple):  # as memory maps and kernels: their class does not say enough
+        return numba.typeof(value)
     kinds = tuple(map(type, value))
     if _NUMBERS.issuperset(kinds):
         return kind, kinds

@@ -61,6 +61,38 @@ def test_a_known_record_shows_what_its_arrays_hold_now():
         assert _add(one, 1.0, (0.0, 0.0)) == i + 2.0
 
 
+@kernel
+def _first(array):
+    return array[0]
+
+
+@kernel
+def _apply(one, number):
+    return one(number)
+
+
+@kernel
+def _double(number):
+    return 2.0 * number
+
+
+@kernel
+def _halve(number):
+    return 0.5 * number
+
+
+def test_memory_maps_of_two_types_are_read_right(tmp_path):
+    for dtype in (np.float64, np.int64, np.float32):
+        mapped = np.memmap(tmp_path / np.dtype(dtype).name, dtype=dtype, mode="w+", shape=3)
+        mapped[:] = 7
+        assert [_first(mapped), _first(mapped)] == [7, 7]
+
+
+def test_two_kernels_as_arguments_are_not_one():
+    assert [_apply(_double, 3.0), _apply(_halve, 3.0)] == [6.0, 1.5]
+    assert [_apply(_double, 3.0), _apply(_halve, 3.0)] == [6.0, 1.5]
+
+
 def test_kernels_call_kernels():
     assert _call(_pair()) == 3.0
 
