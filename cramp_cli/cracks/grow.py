@@ -119,6 +119,8 @@ def _speed(model, state, tip, resistance, load) -> float:
     drive = resistance.criterion.drive(load)
     if growth.wall[k]:  # it goes where the interface lets it, not where it would by its criterion
         drive = sqrt(max(load.J, 0.0) / cost) if load.K_I > 0.0 else 0.0
+    if load.J <= 0.0:  # no energy flows into the tip, whatever its K
+        drive = 0.0
     begun = settings.steady and growth.running[k]
     if begun or state.time >= settings.begin - 0.5 * model.dt:
         drive = max(drive, 1.0)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from support import advance, build_deck
 
+from cramp_cli.cracks import grow as grow_module
 from cramp_cli.cracks.grow import grow
 from cramp_cli.cracks.tips import sample_tips
 from cramp_cli.state.failure import NumericalFailure
@@ -173,3 +174,20 @@ def test_arrest_and_restart():
     assert kinds[0] == "growth"
     assert "growth" in kinds[arrest:]
     assert state.growth.running[1] == 1
+
+
+@pytest.mark.parametrize(("J", "runs"), [(2.0e-6, True), (-2.0e-6, False)])
+@pytest.mark.parametrize("law", ["{law: prescribed, value: 0.25}", "{law: toughness}"])
+def test_a_tip_into_which_no_energy_flows_does_not_run(monkeypatch, law, J, runs):
+    """Near an edge or a contact J may be negative beside a K_II above the toughness."""
+    plate, _, _ = PLATE.partition("propagation:")
+    text = f"{plate}propagation: {{criterion: max_hoop_stress, speed: {law}}}"
+    model, state, scratch = build_deck(text)
+    advance(model, state, scratch, 1)
+    seen = grow_module.load_on
+    monkeypatch.setattr(
+        grow_module, "load_on", lambda *args: seen(*args)._replace(J=J, K_I=0.0, K_II=0.01)
+    )
+    grow(model, state, scratch)
+    assert (state.growth.speed[1] > 0.0) == runs
+    assert (state.books.fracture[0] > 0.0) == runs
