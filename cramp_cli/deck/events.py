@@ -5,6 +5,7 @@ from typing import Any, Literal
 
 from pydantic import Field
 
+from cramp_cli.schema.curve import Constant, Step
 from cramp_cli.schema.section import Name, Section, Wrong, only_one, unknown
 from cramp_cli.schema.units import Force, Length
 
@@ -57,6 +58,9 @@ def event_mistakes(deck: Any) -> Iterator[Wrong]:
         if found is None:
             continue
         key, event = found
+        if path[0] == "loads" and isinstance(section.in_time, Constant | Step):
+            message = "a load that does not change in time has nothing to hold or to go back to"
+            yield (*path, key), f"{message}: give it `in_time`, a ramp for instance"
         if event.crack is not None:
             yield from _crack_mistakes(deck, (*path, key), event)
         elif event.reaction not in boundary_names(deck):
@@ -80,7 +84,9 @@ def _crack_mistakes(deck, path, event) -> Iterator[Wrong]:
     growth = deck.propagation
     if crack is None:
         yield (*path, "crack"), unknown("crack", event.crack, [one.name for one in deck.cracks])
-    elif growth is None or event.crack not in (growth.cracks or (event.crack,)):
+    elif growth is None:
+        yield (*path, "crack"), f"'{event.crack}' does not grow: the deck has no `propagation`"
+    elif event.crack not in (growth.cracks or (event.crack,)):
         yield (*path, "crack"), f"'{event.crack}' does not grow: name it in propagation"
     elif crack.length >= event.length:
         message = f"must be more than the crack has at the start, {crack.length:.6g} m"

@@ -42,6 +42,7 @@ def pulled(key, **event):
 
 
 BY_FORCE = {"reaction": "wall", "force": FORCE, "direction": "x"}
+RAMP = {"in_time": {"type": "ramp", "until": 100.0}}
 
 
 def follow(deck):
@@ -155,12 +156,25 @@ def test_events_that_can_not_happen_are_told(event, told):
 
 def test_a_crack_must_grow_to_a_length_that_it_has_not():
     crack = {"name": "c", "points": [[0, 1], [2, 1]], "start": "edge", "end": "tip"}
-    load = {"type": "traction", "body": "bar", "where": {"y": 2}, "traction": [0, 1]}
+    load = {"type": "traction", "body": "bar", "where": {"y": 2}, "traction": [0, 1]} | RAMP
+    other = {"propagation": {"criterion": "critical_J", "cracks": ["d"]}}
+    both = {"cracks": [crack, crack | {"name": "d", "points": [[4, 1], [6, 1]]}]}
     for length, more, told in (
-        (3.0, {}, "crack: 'c' does not grow: name it in propagation"),
+        (3.0, {}, "crack: 'c' does not grow: the deck has no `propagation`"),
+        (3.0, other | both, "crack: 'c' does not grow: name it in propagation"),
         (1.5, {"propagation": {"criterion": "critical_J"}}, "at the start, 2 m (got 1.5 m)"),
     ):
         waits = load | {"hold_when": {"crack": "c", "length": length}}
         with pytest.raises(DeckError) as caught:
             read(PULLED | {"cracks": [crack], "loads": [waits]} | more)
         assert told in str(caught.value)
+
+
+@pytest.mark.parametrize("key", ["hold_when", "reverse_when"])
+@pytest.mark.parametrize("curve", [{}, {"in_time": "constant"}, {"in_time": "step"}])
+def test_a_load_that_is_the_same_at_all_times_can_not_wait(key, curve):
+    """Its clock may stand or run back: the load would stay as it is, without a word."""
+    load = {"type": "force", "body": "bar", "where": {"x": 6}, "total": [1, 0], key: BY_FORCE}
+    with pytest.raises(DeckError, match=f"loads.0.{key}: .*give it `in_time`"):
+        read(PULLED, loads=[load | curve])
+    read(PULLED, loads=[load | RAMP])
