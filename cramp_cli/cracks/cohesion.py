@@ -75,9 +75,11 @@ def energy_of_pressures(model, state) -> float:
     uniaxial strain: about what they have done to a crack that is open, and far more than the
     trembling of faces that they press together.
     """
-    if model.cohesion is None or not model.cohesion.presses(state.paths).any():
+    if model.cohesion is None:
         return 0.0
     pressed, faces = model.cohesion.presses(state.paths), lay_out_faces(state.paths)
+    if not pressed.any():
+        return 0.0
     force = np.hypot(*tractions_now(model, state).T) * faces.length
     of_crack = np.bincount(faces.crack[pressed], force[pressed])
     modulus = max(confined_modulus(b.law) for b in model.blocks if b.law is not None)
