@@ -7,6 +7,7 @@ import yaml
 
 from cramp_cli.build import build
 from cramp_cli.cracks.fields import find_rows, list_cracks
+from cramp_cli.cracks.grow import grow
 from cramp_cli.deck.deck import check_deck
 from cramp_cli.schema.mistake import Source
 from cramp_cli.scratch import make_scratch
@@ -35,6 +36,15 @@ def advance(model, state, scratch, steps):
     """Take a number of time steps."""
     for _ in range(steps):
         step(model, state, scratch, lambda title: nullcontext())
+
+
+def advance_growing(model, state, scratch, steps):
+    """Take a number of time steps, after each of which the cracks may grow; return the events."""
+    events = []
+    for _ in range(steps):
+        advance(model, state, scratch, 1)
+        events += grow(model, state, scratch)
+    return events
 
 
 def locate(model, state, scratch):

@@ -39,8 +39,8 @@ SHAPES = {
     "cpdi": ConvectedDomain,
 }
 RAMP = 1.0  # cells of a crack over which a smooth tip fades
-# Cells ahead of a smooth tip at which the first particles feel it: K of centre and edge cracks with
-# ten cells is right within 0.3 % on average over a cell, for two to four particles along a cell.
+# Cells ahead of a smooth tip at which the first particles feel it: K of a centre crack with ten
+# cells is right within 0.3 % on average over a cell, for two, three and four particles along a cell.
 FRONT = 0.35
 ENDS = {"plain": PLAIN, "edge": EDGE, "tip": TIP}
 RIGID = ""  # stands for the material of rigid bodies

@@ -6,9 +6,8 @@ import hashlib
 import numpy as np
 import pytest
 from promises import differences, run_in_pieces
-from support import advance, build_deck
+from support import advance_growing, build_deck
 
-from cramp_cli.cracks.grow import grow
 from cramp_cli.numerics import team
 from cramp_cli.output.checkpoint import checkpoints
 from cramp_cli.output.hdf5 import opened
@@ -92,9 +91,7 @@ def test_threads_do_not_change_a_bit(monkeypatch):
     for threads in (1, 2, 4):
         model, state, _ = build_deck(STRIP)
         scratch = make_scratch(model, state, threads)
-        for _ in range(STEPS):
-            advance(model, state, scratch, 1)
-            grow(model, state, scratch)
+        advance_growing(model, state, scratch, STEPS)
         digest = hashlib.sha256()
         for array in (*state.particles, *state.paths, *state.books):
             digest.update(np.ascontiguousarray(array).tobytes())

@@ -9,9 +9,7 @@ Opened slowly and held, the beam must stop its crack where statics says.
 import pytest
 import yaml
 from runs import INPUTS, run_input
-from support import advance, build_deck
-
-from cramp_cli.cracks.grow import grow
+from support import advance_growing, build_deck
 
 pytestmark = [pytest.mark.verification, pytest.mark.slow]
 GROWING = "propagation={criterion: critical_J}"
@@ -69,8 +67,7 @@ def opened_slowly(**solver):
     data["propagation"] = {"criterion": "critical_J"}
     model, state, scratch = build_deck(data)
     while state.time < 1.25 * LASTS:
-        advance(model, state, scratch, 1)
-        grow(model, state, scratch)
+        advance_growing(model, state, scratch, 1)
     assert state.growth.speed[0] == 0.0
     return 0.1 - state.paths.origin[0, 0]
 

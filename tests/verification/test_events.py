@@ -2,8 +2,10 @@
 
 import numpy as np
 import pytest
+import yaml
 from runs import Listener, Rows
 from support import advance, build_deck, read
+from verification.test_growing_cracks import PLATE
 
 from cramp_cli.boundary.events import new_events
 from cramp_cli.build import build
@@ -91,27 +93,20 @@ def test_a_grip_waits_for_a_reaction(key):
     np.testing.assert_allclose(state.particles.stress[:, 0], stress, atol=nearly)
 
 
-PLATE = """
-cramp: 1
-analysis: plane_strain
-grid: {cell: 1, lower: [-4, -4], upper: [24, 14]}
-materials: {m: {law: elastic, density: 1, E: 1, nu: 0.25, toughness: {G_Ic: 1.0e-6}}}
-bodies: [{name: b, material: m, shape: {type: rectangle, lower: [0, 0], upper: [20, 10]}}]
-cracks: [{name: flat, points: [[0, 5.2], [6, 5.2]], start: edge}]
-loads:
-  - {name: weight, type: gravity, acceleration: [1.0e-9, 0], hold_when: {crack: flat, length: 8},
-     in_time: {type: ramp, until: 16}}
-solver: {end_time: 12}
-propagation:
-  criterion: steady_state
-  begin: 0
-  speed: {law: prescribed, value: 0.25}
-"""
+WEIGHT = {
+    "name": "weight",
+    "type": "gravity",
+    "acceleration": [1.0e-9, 0],
+    "hold_when": {"crack": "flat", "length": 8},
+    "in_time": {"type": "ramp", "until": 16},
+}
 
 
 def test_a_load_waits_for_a_crack():
     """It grows from 6 to 8 m at 0.25 m/s: 8 s, when the ramp is at one half."""
-    (told,), model, state, summary = follow(PLATE)
+    (told,), model, state, summary = follow(
+        yaml.safe_load(PLATE) | {"loads": [WEIGHT], "solver": {"end_time": 12}}
+    )
     assert told.endswith("crack flat is 8 m long: load weight is held")
     assert summary.events[0]["time"] == pytest.approx(8.0, abs=1.5 * model.dt)
     a, dt = 1e-9, model.dt

@@ -2,10 +2,9 @@
 
 import numpy as np
 import pytest
-from support import advance, build_deck
+from support import advance, advance_growing, build_deck
 
 from cramp_cli.cracks import grow as grow_module
-from cramp_cli.cracks.grow import grow
 from cramp_cli.cracks.tips import sample_tips
 from cramp_cli.state.failure import NumericalFailure
 from cramp_cli.state.paths import EDGE, PLAIN, TIP
@@ -30,10 +29,7 @@ propagation:
 def run(steps, **overrides):
     """Take steps with growth; return model, state and all events."""
     model, state, scratch = build_deck(PLATE, **overrides)
-    events = []
-    for _ in range(steps):
-        advance(model, state, scratch, 1)
-        events += grow(model, state, scratch)
+    events = advance_growing(model, state, scratch, steps)
     return model, state, events
 
 
@@ -65,9 +61,7 @@ def test_a_crack_ends_at_a_free_surface():
 def test_a_tip_says_that_its_domain_is_small(steps, status):
     """Within five cells of the edge at x = 20: some J of the tractions may be left out."""
     model, state, scratch = build_deck(PLATE)
-    for _ in range(steps):
-        advance(model, state, scratch, 1)
-        grow(model, state, scratch)
+    advance_growing(model, state, scratch, steps)
     (row,) = sample_tips(model, state, scratch)
     assert (row["x"] > 16.0) == (status != "ok")
     assert row["status"].startswith(status)
@@ -75,9 +69,7 @@ def test_a_tip_says_that_its_domain_is_small(steps, status):
 
 def test_a_sharp_tip_that_runs_is_doubtful():
     model, state, scratch = build_deck(PLATE, solver={"tips": "sharp"})
-    for _ in range(20):
-        advance(model, state, scratch, 1)
-        grow(model, state, scratch)
+    advance_growing(model, state, scratch, 20)
     assert "sharp tip leaves" in sample_tips(model, state, scratch)[0]["status"]
 
 
@@ -188,6 +180,6 @@ def test_a_tip_into_which_no_energy_flows_does_not_run(monkeypatch, law, J, runs
     monkeypatch.setattr(
         grow_module, "load_on", lambda *args: seen(*args)._replace(J=J, K_I=0.0, K_II=0.01)
     )
-    grow(model, state, scratch)
+    grow_module.grow(model, state, scratch)
     assert (state.growth.speed[1] > 0.0) == runs
     assert (state.books.fracture[0] > 0.0) == runs

@@ -7,9 +7,8 @@ Both edges of a strip |y| < h are moved apart by u0 and held. Far ahead of the t
 import numpy as np
 import pytest
 import yaml
-from support import advance, build_deck
+from support import advance_growing, build_deck
 
-from cramp_cli.cracks.grow import grow
 from cramp_cli.cracks.rayleigh import release_factors, wave_speeds
 from cramp_cli.state.measures import sum_energies
 
@@ -47,8 +46,7 @@ def run(propagation, until, toughness=1.0, update="fmpm(2)"):
     model, state, scratch = build_deck(data)
     rows = []
     while state.time < 1.5e-3 and state.paths.origin[-1, 0] < until:
-        advance(model, state, scratch, 1)
-        grow(model, state, scratch)
+        advance_growing(model, state, scratch, 1)
         tip, growth, books = state.paths.origin[-1, 0], state.growth, state.books
         energy = sum(sum_energies(state.particles)) - books.external[0]
         booked = books.fracture[0] + books.damping[0]
@@ -104,8 +102,7 @@ def coarse(update, bottom):
     model, state, scratch = build_deck(data)
     J = []
     while state.paths.origin[-1, 0] < 0.125:
-        advance(model, state, scratch, 1)
-        grow(model, state, scratch)
+        advance_growing(model, state, scratch, 1)
         J.append(state.growth.load[1, 0])
     return np.array(J)
 

@@ -8,9 +8,7 @@ import numpy as np
 import pytest
 import yaml
 from runs import INPUTS
-from support import advance, build_deck, merged
-
-from cramp_cli.cracks.grow import grow
+from support import advance_growing, build_deck, merged
 
 pytestmark = [pytest.mark.verification, pytest.mark.slow]
 FAST, RAYLEIGH, NU, STRESS = 5944.5, 2946.8, 0.3, 5e6  # m/s, m/s, 1, Pa
@@ -39,8 +37,7 @@ def test_K_of_a_suddenly_moving_crack():
     model, state, scratch = build_deck(merged(data, {"propagation": growth}))
     rows = []
     while state.time < 3.0 * ARRIVAL:
-        advance(model, state, scratch, 1)
-        grow(model, state, scratch)
+        advance_growing(model, state, scratch, 1)
         rows.append((state.time, state.growth.load[1, 1]))
     time, K_I = np.array(rows).T
     settled = time > BEGIN + SETTLE
