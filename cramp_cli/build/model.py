@@ -40,7 +40,7 @@ SHAPES = {
 }
 RAMP = 1.0  # cells of a crack over which a smooth tip fades
 # Cells ahead of a smooth tip at which the first particles feel it: K of a centre crack with ten
-# cells is right within 0.3 % on average over a cell, for two, three and four particles along a cell.
+# cells is right within 0.3 % on average over a cell, for two, three or four particles along one.
 FRONT = 0.35
 ENDS = {"plain": PLAIN, "edge": EDGE, "tip": TIP}
 RIGID = ""  # stands for the material of rigid bodies
