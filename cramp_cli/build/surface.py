@@ -7,6 +7,7 @@ inscribed in them touches it, so contact sees the outline itself.
 
 import numpy as np
 
+SAME = 1e-6  # cells; corners of outlines nearer than this to a line or to each other are one
 PASSES = 2  # at a corner the second one keeps the distance from the other side
 
 
@@ -23,3 +24,34 @@ def settled(points, outline, half: float) -> np.ndarray:
         inwards = (points[near] - feet[near]) / away[near, None]
         points[near] = feet[near] + half * inwards
     return points
+
+
+def outline_of(deck, number, width):
+    """Return the outline of body `number` without what later bodies and holes cover.
+
+    On a symmetry plane it goes on as its image: where the plane cuts it there is no surface.
+    width: of a cell (m)
+    """
+    left = deck.bodies[number].shape.outline()
+    for later in deck.bodies[number + 1 :]:
+        left = left - later.shape.outline()
+    return _with_images(left, deck, SAME * width).simplify(SAME * width)
+
+
+def _with_images(outline, deck, near):
+    """Return an outline joined with its images behind symmetry planes and the axis of rings.
+
+    near: length below which two corners are one (m)
+    """
+    from shapely import snap
+    from shapely.affinity import scale
+
+    planes = [b.where.planes[0] for b in deck.boundary if b.symmetry]
+    if deck.analysis == "axisymmetric":
+        planes.append((0, 0.0))
+    for axis, at in planes:
+        factors, origin = [1.0, 1.0], [0.0, 0.0]
+        factors[axis], origin[axis] = -1.0, at
+        image = scale(outline, *factors, origin=tuple(origin))
+        outline = outline | snap(image, outline, near)
+    return outline

@@ -184,3 +184,32 @@ def test_block_slides(mu, turned):
 def test_friction_holds_the_block(law, turned):
     time, way, *_ = slide(law, turned)
     assert abs(way) < 0.01 * incline_slide(time, ANGLE, 0.0, RAMP)[0]
+
+
+def pushed(half):
+    """Return a block of 12 x 6 cells, or its right half, under a rigid disk of 4 cells."""
+    angles = np.radians(np.linspace(-90.0, 90.0, 61))
+    right = np.stack([4.0 * np.cos(angles), 10.0 + 4.0 * np.sin(angles)], axis=1)
+    left = right[-2:0:-1] * (-1.0, 1.0)
+    ring = right if half else np.concatenate([right, left])
+    shape = {"type": "rectangle", "lower": [0 if half else -6, 0], "upper": [6, 6]}
+    return {
+        "cramp": 1,
+        "analysis": "plane_strain",
+        "grid": {"cell": 1.0, "lower": [-9, -3], "upper": [9, 18]},
+        "materials": {"m": {"law": "elastic", "density": 1.0, "E": 1.0, "nu": 0.3}},
+        "bodies": [
+            {"name": "block", "material": "m", "shape": shape},
+            {
+                "name": "disk",
+                "rigid": {"velocity": [0, -0.01]},
+                "shape": {"type": "polygon", "points": ring.tolist()},
+            },
+        ],
+        "contact": {"bodies": {"law": "frictional", "mu": 0.3}},
+        "boundary": [
+            {"where": {"y": 0}, "fix": ["y"]},
+            *([{"where": {"x": 0}, "symmetry": True}] if half else []),
+        ],
+        "solver": {"end_time": 1.0, "damping": {"particle": 0.1}},
+    }
