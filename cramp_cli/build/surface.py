@@ -27,15 +27,32 @@ def settled(points, outline, half: float) -> np.ndarray:
 
 
 def outline_of(deck, number, width):
-    """Return the outline of body `number` without what later bodies and holes cover.
+    """Return the outline of rigid body `number` without what later bodies and holes cover.
 
-    On a symmetry plane it goes on as its image: where the plane cuts it there is no surface.
+    Rigid bodies that touch it and move like it are one wall with it: at their seam there is no
+    surface. Nor is there one where a symmetry plane cuts it: there it goes on as its image.
     width: of a cell (m)
     """
+    from shapely import get_parts, snap, union_all
+
+    own = _uncovered(deck, number)
+    alike = [
+        _uncovered(deck, n)
+        for n, other in enumerate(deck.bodies)
+        if n != number and other.rigid == deck.bodies[number].rigid
+    ]
+    near = SAME * width
+    wall = union_all([own, *(snap(one, own, near) for one in alike)])
+    mine = [part for part in get_parts(wall) if part.distance(own) == 0.0]
+    return _with_images(union_all(mine), deck, near).simplify(near)
+
+
+def _uncovered(deck, number):
+    """Return the outline of a body without what later bodies and holes cover."""
     left = deck.bodies[number].shape.outline()
     for later in deck.bodies[number + 1 :]:
         left = left - later.shape.outline()
-    return _with_images(left, deck, SAME * width).simplify(SAME * width)
+    return left
 
 
 def _with_images(outline, deck, near):
