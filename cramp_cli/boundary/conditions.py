@@ -177,6 +177,8 @@ def reflect_mass_and_momentum(conditions, scratch, state) -> None:
     for plane, free in zip(conditions.mirrors, scratch.free, strict=True):
         m = plane.mirror
         reflect_even(m, free, rows, grid.mass.reshape(-1, 1))
+        if scratch.meeting is not None:  # the area of a joint is that of body and image
+            reflect_even(m, free, rows, scratch.meeting.clouds.volume.reshape(-1, 1))
         _reflect(m, free, rows, grid.momentum, add=True)
     for hold, held in zip(conditions.holds, scratch.held, strict=True):
         if hold.beyond is not None:

@@ -2,13 +2,12 @@
 
 import numpy as np
 
+from cramp_cli.build.surface import outline_of
 from cramp_cli.contact.laws import NORMALS, BodyContact, BodyLaws, RigidBody
 from cramp_cli.contact.outline import Outlines, make_outlines
 from cramp_cli.cracks.contact import LAWS, ContactLaws
 from cramp_cli.deck.contact_groups import group_of_crack, groups_of_bodies, names_of_groups
 from cramp_cli.state.groups import Groups
-
-SAME = 1e-6  # cells; pieces of an outline nearer than this to a straight line are one
 
 
 def build_crack_laws(deck) -> ContactLaws:
@@ -70,7 +69,7 @@ def build_body_contact(deck, events, width) -> BodyContact | None:
 
 
 def build_outlines(deck, group, groups, width) -> Outlines:
-    """Return the outlines of the rigid bodies, without what later bodies and holes cover.
+    """Return the outlines of the rigid bodies.
 
     group: of every body, by name; groups: how many; width: of a cell (m)
     """
@@ -80,10 +79,7 @@ def build_outlines(deck, group, groups, width) -> Outlines:
     rings = [[] for _ in range(groups)]
     for n, body in enumerate(deck.bodies):
         if body.rigid:
-            left = body.shape.outline()
-            for later in deck.bodies[n + 1 :]:
-                left = left - later.shape.outline()
-            for part in get_parts(left.simplify(SAME * width)):
+            for part in get_parts(outline_of(deck, n, width)):
                 ends = orient(part)  # the body is at the left of its rings
                 rings[group[body.name]] += [r.coords for r in (ends.exterior, *ends.interiors)]
     return make_outlines(rings)

@@ -9,7 +9,7 @@ from cramp_cli.build.covered import crack_line
 from cramp_cli.build.events import EventList
 from cramp_cli.build.growth import build_propagation
 from cramp_cli.build.laws import law_of
-from cramp_cli.build.surface import settled
+from cramp_cli.build.surface import outline_of, settled
 from cramp_cli.contact.adhesion import no_bonds
 from cramp_cli.cracks.tips import Fracture
 from cramp_cli.deck.deck import Deck, DeckError
@@ -177,7 +177,7 @@ def seed_body(deck: Deck, lattice: Lattice, number: int) -> np.ndarray:
             ]
         )
     if body.rigid:
-        points = settled(points, body.shape.outline(), 0.5 * width / per_cell)
+        points = settled(points, outline_of(deck, number, width), 0.5 * width / per_cell)
     return points
 
 

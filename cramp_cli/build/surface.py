@@ -7,6 +7,7 @@ inscribed in them touches it, so contact sees the outline itself.
 
 import numpy as np
 
+SAME = 1e-6  # cells; corners of outlines nearer than this to a line or to each other are one
 PASSES = 2  # at a corner the second one keeps the distance from the other side
 
 
@@ -23,3 +24,51 @@ def settled(points, outline, half: float) -> np.ndarray:
         inwards = (points[near] - feet[near]) / away[near, None]
         points[near] = feet[near] + half * inwards
     return points
+
+
+def outline_of(deck, number, width):
+    """Return the outline of rigid body `number` without what later bodies and holes cover.
+
+    Rigid bodies that touch it and move like it are one wall with it: at their seam there is no
+    surface. Nor is there one where a symmetry plane cuts it: there it goes on as its image.
+    width: of a cell (m)
+    """
+    from shapely import get_parts, snap, union_all
+
+    own = _uncovered(deck, number)
+    alike = [
+        _uncovered(deck, n)
+        for n, other in enumerate(deck.bodies)
+        if n != number and other.rigid == deck.bodies[number].rigid
+    ]
+    near = SAME * width
+    wall = union_all([own, *(snap(one, own, near) for one in alike)])
+    mine = [part for part in get_parts(wall) if part.distance(own) == 0.0]
+    return _with_images(union_all(mine), deck, near).simplify(near)
+
+
+def _uncovered(deck, number):
+    """Return the outline of a body without what later bodies and holes cover."""
+    left = deck.bodies[number].shape.outline()
+    for later in deck.bodies[number + 1 :]:
+        left = left - later.shape.outline()
+    return left
+
+
+def _with_images(outline, deck, near):
+    """Return an outline joined with its images behind symmetry planes and the axis of rings.
+
+    near: length below which two corners are one (m)
+    """
+    from shapely import snap
+    from shapely.affinity import scale
+
+    planes = [b.where.planes[0] for b in deck.boundary if b.symmetry]
+    if deck.analysis == "axisymmetric":
+        planes.append((0, 0.0))
+    for axis, at in planes:
+        factors, origin = [1.0, 1.0], [0.0, 0.0]
+        factors[axis], origin[axis] = -1.0, at
+        image = scale(outline, *factors, origin=tuple(origin))
+        outline = outline | snap(image, outline, near)
+    return outline

@@ -17,7 +17,7 @@ class Clouds(NamedTuple):
 
     head: np.ndarray  # (rows,) first entry of a row, or -1
     link: np.ndarray  # (listed * entries per line,) next entry of the same row, or -1
-    volume: np.ndarray  # (rows,) sum of V S, m^3
+    volume: np.ndarray  # (rows,) sum of V S, from step.py's paragraph 3 on with images (m^3)
     slope: np.ndarray  # (rows, dim) sum of V grad S: the gradient of the volume (m^3 per cell)
 
 
@@ -35,13 +35,17 @@ def make_clouds(rows: int, stencil) -> Clouds:
 
 @kernel
 def clear_clouds(clouds, rows):
-    """Empty the clouds of all rows of nodes with several rows."""
+    """Empty the clouds of all rows of nodes with several rows.
+
+    Volumes are emptied everywhere: symmetry planes add those of nodes that one body sees.
+    """
     nodes = len(rows.first)
+    clouds.volume[:] = 0.0
     for i in range(rows.count[1]):
         row = rows.shared[i]
         while row >= 0:
             clouds.head[row] = -1
-            clouds.slope[row, :], clouds.volume[row] = 0.0, 0.0
+            clouds.slope[row, :] = 0.0
             row = rows.first[row] if row < nodes else rows.next[row - nodes]
 
 

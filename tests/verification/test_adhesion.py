@@ -114,3 +114,28 @@ def test_a_resumed_run_keeps_its_bonds(tmp_path):
 def test_cracks_have_traction_laws_instead():
     with pytest.raises(DeckError, match="unknown law 'adhesive'"):
         read(block(0.0, [0, 1]), contact={"cracks": {"law": "adhesive", "strength": 1}})
+
+
+def test_half_of_a_joint_with_its_image_bears_what_the_whole_does():
+    """A symmetry plane across the joint: the same bonds in every step, the same motion.
+
+    A node on the plane holds half of the volume and, with the image, all of the momentum: before
+    the volume had its image too the joint began to part there, at half of its strength.
+    """
+    found = []
+    for half in (False, True):
+        deck = block(0.0, [0, 1.5 * STRENGTH])
+        for body in deck["bodies"]:
+            body["shape"]["lower"][0] = 0 if half else -WIDTH
+        plane = [{"where": {"x": 0}, "symmetry": True}] if half else []
+        deck["grid"] = {"cell": 1.0, "lower": [-10, -5], "upper": [12, 12]}
+        model, state, scratch = build_deck(deck | {"boundary": [*deck["boundary"], *plane]})
+        forces, share = [], 2.0 if half else 1.0
+        while state.time < RAMP:
+            advance(model, state, scratch, 1)
+            forces.append(share * float(state.contact_forces[1, 1]))
+        found.append(forces)
+    whole, half = found
+    np.testing.assert_allclose(half, whole, rtol=0, atol=1e-6 * STRENGTH * WIDTH)
+    assert np.max(np.abs(whole)) > STRENGTH * WIDTH
+    assert whole[-1] == 0.0  # it has parted
