@@ -1,7 +1,6 @@
 """When something is due in a run, and how long its paragraphs take."""
 
 from collections import defaultdict
-from contextlib import contextmanager
 from time import perf_counter
 
 
@@ -20,17 +19,22 @@ class Due:
 
 
 class Stopwatch:
-    """Times the paragraphs of a step."""
+    """Times the paragraphs of a step, one after the other."""
 
     def __init__(self):
         self.seconds = defaultdict(float)
+        self._title, self._begin = "", 0.0
 
-    @contextmanager
-    def __call__(self, title: str):
-        """Add the time spent inside to the title."""
-        begin = perf_counter()
-        yield
-        self.seconds[title] += perf_counter() - begin
+    def __call__(self, title: str) -> "Stopwatch":
+        """Return a context that adds the time spent inside to the title."""
+        self._title = title
+        return self
+
+    def __enter__(self):
+        self._begin = perf_counter()
+
+    def __exit__(self, *_):
+        self.seconds[self._title] += perf_counter() - self._begin
 
     def table(self) -> str:
         """Return titles with seconds and shares, the way of a step from top to bottom."""

@@ -3,6 +3,7 @@
 import numpy as np
 
 from cramp_cli.cracks.cloud import list_origins
+from cramp_cli.cracks.fields import beyond_tips
 from cramp_cli.cracks.segments import make_segments
 from cramp_cli.cracks.view import make_seen
 from cramp_cli.numerics.team import Team
@@ -22,13 +23,16 @@ def make_scratch(model, state, threads: int = 1) -> Scratch:
     per_particle = len(offsets(model.strides, shape))
     listed = min(n, 40 * segment_count + 64)
     grid, rows = make_grid(lattice.node_count, dim, 16 * segment_count + 64)
+    report = np.zeros((len(model.blocks), bands, 4), dtype=np.int64)
     scratch = Scratch(
         grid=grid,
         rows=rows,
         stencil=make_stencil(n, dim, per_particle, listed, domains=has_domain(shape)),
         segments=make_segments(lattice.node_count, segment_count, 24 * segment_count + 64),
         team=Team(threads, n),
-        report=np.zeros((len(model.blocks), bands, 4), dtype=np.int64),
+        beyond=beyond_tips(model),
+        report=report,
+        reports=list(report),
         per_band=np.zeros(bands),
         seen=(make_seen(), make_seen()),
         origins=list_origins(lattice, state.particles),

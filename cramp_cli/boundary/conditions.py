@@ -25,10 +25,9 @@ from cramp_cli.boundary.velocity import (
     hold_momentum,
     hold_zero,
 )
-from cramp_cli.state.particles import DELETED
 from cramp_cli.state.signal import Signal
 from cramp_cli.transfer.on_grid import add_gravity
-from cramp_cli.transfer.to_grid import sum_particle_force
+from cramp_cli.transfer.particle_force import sum_particle_force
 
 
 @dataclass(frozen=True)
@@ -58,12 +57,6 @@ class ParticleForce:
     load: np.ndarray  # (n, dim) N
     shape: Any
     signal: Signal
-
-    def where(self, index) -> tuple:
-        """Return places and loads of those that are left; index: the place of each number."""
-        chosen = index[self.particles]
-        left = chosen != DELETED
-        return chosen[left], self.load[left]
 
 
 @dataclass(frozen=True)
@@ -282,8 +275,8 @@ def add_loads(model, scratch, state) -> None:
     conditions, strides, grid = model.conditions, model.strides, scratch.grid
     for f in conditions.forces:
         factor = f.signal.load(state)
-        chosen, load = f.where(scratch.index)
-        sum_particle_force(grid, chosen, load, scratch.stencil, f.shape, strides, factor)
+        loaded = (f.particles, f.load, scratch.index)
+        sum_particle_force(grid, *loaded, scratch.stencil, f.shape, strides, factor)
     for t in conditions.tractions:
         places = (scratch.index, t.faces, t.shape, strides)
         add_traction(grid.force, scratch.stencil, *places, t.signal.load(state))

@@ -7,7 +7,7 @@ goes to the row of its side, the rest to both sides (tip_shares.py).
 
 import numpy as np
 
-from cramp_cli.cracks.crossing import hidden_nodes, off_crack
+from cramp_cli.cracks.crossing import crossed_cracks, crossed_once, hidden_nodes, off_crack
 from cramp_cli.cracks.lines import NO_CRACK, cracks_between
 from cramp_cli.cracks.rows import add_normal, join_row
 from cramp_cli.cracks.segments import ON_CRACK
@@ -147,12 +147,13 @@ def assign_rows(
         lowest = (lower[0] + width * i, lower[1] + width * j)
         place = place_of(shape, strides, stencil, p)
         x, y = particles.position[p, 0], particles.position[p, 1]
-        hidden = hidden_nodes(segments, cell, x, y, lowest, width, side, tolerance)
-        if hidden == 0 and are_plain(rows, first, steps):
+        hidden, unsure = hidden_nodes(segments, cell, x, y, lowest, width, side, tolerance)
+        if hidden | unsure == 0 and are_plain(rows, first, steps):
             stencil.near[p] = AROUND
             continue
         listed[line], stencil.near[p], stencil.entries[line] = p, line, 0
-        x, y = off_crack(segments, cell, x, y, tolerance)
+        if unsure:
+            x, y = off_crack(segments, cell, x, y, tolerance)
         known, cut, gx, gy = -1, 1.0, 0.0, 0.0
         for k in range(len(steps)):
             if not sees(place, shape, k):
@@ -162,8 +163,15 @@ def assign_rows(
             tip = rows.tip[node]
             tip = -1 if tip >= 0 and of_crack[tip // 2] != group else tip
             crossed = NO_CRACK
-            if hidden >> k & 1:
-                crossed = cracks_between(segments, cell, (x, y), n, tip, of_crack, group, tolerance)
+            if unsure >> k & 1:
+                n = off_crack(segments, cell, n[0], n[1], tolerance)
+                crossed = crossed_cracks(segments, cell, x, y, n[0], n[1], tolerance)
+            elif hidden >> k & 1:
+                crossed = crossed_once(segments, k)
+            if crossed[0] >= 0:
+                crossed = cracks_between(
+                    segments, crossed, (x, y), n, tip, of_crack, group, tolerance
+                )
             if tip < 0:
                 give_row(stencil, rows, segments.ends, line, k, node, group, crossed)
                 continue

@@ -6,7 +6,7 @@ import numpy as np
 
 from cramp_cli.cracks.rows import row_across
 from cramp_cli.numerics.dispatch import by_length
-from cramp_cli.numerics.kernel import kernel
+from cramp_cli.numerics.kernel import inlined_kernel, kernel
 from cramp_cli.numerics.vector import (
     dot,
     plus,
@@ -14,6 +14,7 @@ from cramp_cli.numerics.vector import (
     vector,
 )
 from cramp_cli.shapes.shape import offsets, place_of, weights
+from cramp_cli.transfer.rows import add
 
 IGNORE, FRICTIONAL, STICK, GLUED, ADHESIVE = 0, 1, 2, 3, 4
 LAWS = {
@@ -41,30 +42,37 @@ class ContactLaws(NamedTuple):
 def sum_displacement(rows, particles, stencil, shape, strides, lo, hi):
     """Add mass-weighted displacement and position of particles lo..hi to rows of shared nodes."""
     first, displacement, place = rows.first, rows.displacement, rows.place
-    x, X, m = particles.position, particles.origin, particles.mass
     base, near = stencil.base, stencil.near
     entries, which, table, share = stencil.entries, stencil.which, stencil.table, stencil.share
     steps = offsets(strides, shape)
     for i in range(stencil.count[1]):
         p = stencil.around[i]
-        if p < lo or p >= hi:
-            continue
-        start, line, shared = base[p], near[p], False
-        for k in range(len(steps)):
-            shared = shared or first[start + steps[k]] >= 0
-        if not shared:
+        if p < lo or p >= hi or not is_any_shared(first, base[p], steps):
             continue
         S = weights(place_of(shape, strides, stencil, p), shape)
-        count = len(steps) if line < 0 else entries[line]
-        for e in range(count):
-            k, row, w = e, start + steps[e % len(steps)], m[p]
-            if line >= 0:
-                k, row, w = which[line, e], table[line, e], m[p] * share[line, e]
-            if first[start + steps[k]] >= 0:
-                w *= S[k]
-                for d in range(len(strides)):
-                    displacement[row, d] += w * (x[p, d] - X[p, d])
-                    place[row, d] += w * x[p, d]
+        x, X = vector(strides, particles.position, p), vector(strides, particles.origin, p)
+        m, u, line = particles.mass[p], plus(x, -1.0, X), near[p]
+        if line < 0:
+            for k in range(len(steps)):
+                node = base[p] + steps[k]
+                if first[node] >= 0:
+                    add(displacement, node, m * S[k], u)
+                    add(place, node, m * S[k], x)
+            continue
+        for e in range(entries[line]):
+            k, row = which[line, e], table[line, e]
+            if first[base[p] + steps[k]] >= 0:
+                add(displacement, row, m * share[line, e] * S[k], u)
+                add(place, row, m * share[line, e] * S[k], x)
+
+
+@inlined_kernel
+def is_any_shared(first, lowest, steps):
+    """Return whether one of the nodes of a particle has several rows; lowest: the first of them."""
+    shared = False
+    for k in range(len(steps)):
+        shared = shared or first[lowest + steps[k]] >= 0
+    return shared
 
 
 @by_length

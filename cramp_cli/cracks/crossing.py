@@ -91,31 +91,81 @@ def reaches(ends, s, box):
 
 @inlined_kernel
 def hidden_nodes(segments, cell, x, y, first_node, width, side, tolerance):
-    """Return which nodes of a particle a crack may hide from it, bit k for node k.
+    """Return which nodes of a particle a segment hides from it, and which want a closer look.
 
-    A node is free if it lies on the particle's side of the lines of all segments about the cell,
-    and neither lies on one of them nor within a hair. Most nodes are, and need no more questions.
+    Bit k is that of node k; `segments.across[k]` is the segment that hides it, with the particle
+    above it, or ~segment with the particle below. A closer look (`crossed_cracks`) is wanted where
+    particle, node and end of a segment are about in line, a node all but lies on a segment, or
+    several segments are crossed.
 
     first_node: place of the lowest of its side x side nodes (m)
     """
     ends, entry = segments.ends, segments.head[cell]
-    nx, ny = first_node
-    hidden = 0
+    hair, (nx, ny), reach = 2.0 * HAIR / ON_CRACK * tolerance, first_node, (side - 1) * width
+    box = box_around(nx, ny, nx + reach, ny + reach, 2.0 * hair)
+    found = (0, 0, 0)
     while entry >= 0:
         s = segments.item[entry]
-        ax, ay, bx, by = ends[s, 0], ends[s, 1], ends[s, 2], ends[s, 3]
-        limit = 2.0 * HAIR / ON_CRACK * tolerance * (abs(bx - ax) + abs(by - ay))
-        here = double_area(ax, ay, bx, by, x, y)
-        if abs(here) <= limit:
-            return (1 << (side * side)) - 1
-        sign = 1.0 if here > 0.0 else -1.0
-        clear = sign * double_area(ax, ay, bx, by, nx, ny) - limit  # negative for a hidden node
-        right, up = -sign * (by - ay) * width, sign * (bx - ax) * width
-        if clear + (side - 1) * (min(right, 0.0) + min(up, 0.0)) <= 0.0:
-            for k in range(side * side):
-                hidden |= int(clear + (k % side) * right + (k // side) * up <= 0.0) << k
         entry = segments.next[entry]
-    return hidden
+        if not reaches(ends, s, box):
+            continue
+        dx, dy = abs(ends[s, 2] - ends[s, 0]), abs(ends[s, 3] - ends[s, 1])
+        near, on = hair * (dx + dy), 0.5 * tolerance * max(dx, dy)
+        here = double_area(ends[s, 0], ends[s, 1], ends[s, 2], ends[s, 3], x, y)
+        if abs(here) <= near:
+            return 0, (1 << (side * side)) - 1
+        how_near = (near, on, 2.0 * hair * reach)
+        found = hide_behind(segments, s, here > 0.0, x, y, first_node, width, side, how_near, found)
+    return found[0], found[1]
+
+
+@inlined_kernel
+def hide_behind(segments, s, above, x, y, first_node, width, side, how_near, found):
+    """Add the nodes that segment `s` hides to those found: hidden, unsure, lying on a segment.
+
+    A node on a segment lies below it. All areas are linear in the place of the node.
+
+    above: whether the particle is
+    how_near: twice the areas within which a node is near the line of the segment or on it, and an
+    end near the way from particle to node (m^2)
+    """
+    ends, (near, on, in_line), (nx, ny) = segments.ends, how_near, first_node
+    hidden, unsure, lying = found
+    ax, ay, bx, by = ends[s, 0], ends[s, 1], ends[s, 2], ends[s, 3]
+    sign = 1.0 if above else -1.0
+    node = sign * double_area(ax, ay, bx, by, nx, ny)  # negative for a node across
+    right, up = -sign * (by - ay) * width, sign * (bx - ax) * width
+    if node + (side - 1) * (min(right, 0.0) + min(up, 0.0)) > near:  # of most segments
+        return found
+    a, b = double_area(nx, ny, x, y, ax, ay), double_area(nx, ny, x, y, bx, by)
+    a_right, a_up = (y - ay) * width, (ax - x) * width
+    b_right, b_up = (y - by) * width, (bx - x) * width
+    for j in range(side):
+        for i in range(side):
+            to_node = node + i * right + j * up
+            to_a, to_b = a + i * a_right + j * a_up, b + i * b_right + j * b_up
+            beside = min(to_a, to_b) > in_line or max(to_a, to_b) < -in_line
+            if to_node > near or beside:
+                continue
+            bit, lies = 1 << (i + j * side), abs(to_node) < on
+            if min(abs(to_a), abs(to_b)) <= in_line or (to_node >= -near and not lies):
+                unsure |= bit
+                continue
+            unsure |= (lying if lies else 0) & bit
+            lying |= bit if lies else 0
+            if above or not lies:
+                unsure |= hidden & bit
+                hidden |= bit
+                segments.across[i + j * side] = s if above else ~s
+    return hidden, unsure, lying
+
+
+@inlined_kernel
+def crossed_once(segments, k):
+    """Return what `crossed_cracks` would for node `k`, which a single segment hides."""
+    across = segments.across[k]
+    s = max(across, ~across)
+    return segments.crack[s], 1 if across >= 0 else -1, s, -1, 0, -1, 0
 
 
 @inlined_kernel

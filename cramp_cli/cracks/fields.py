@@ -21,10 +21,9 @@ def list_cracks(model, state, scratch) -> None:
         return
     lattice = model.lattice
     growth = 1 if model.tip_nodes is None else 2
-    beyond = EXTENSION * lattice.width * smooth_cracks(model)
     zone = growth + support(model.blocks[0].shape)  # who is listed sees nodes that others see
     grid = (lattice.cells, lattice.width, lattice.lower, model.strides)
-    while not list_segments(scratch.segments, state.paths, *grid, growth, zone, beyond):
+    while not list_segments(scratch.segments, state.paths, *grid, growth, zone, scratch.beyond):
         wanted = 2 * int(scratch.segments.used[2])
         scratch.segments = make_segments(lattice.node_count, len(scratch.segments.crack), wanted)
 
@@ -61,7 +60,7 @@ def _rows_fit(scratch, state, model) -> bool:
     forget_rows(rows)
     if tips is not None:
         _look_around_tips(model, state, scratch)
-    place = (strides, lattice.nodes, lattice.width, lattice.lower)
+    place = (strides, model.nodes, lattice.width, lattice.lower)
     ramp = (0.0, 1.0) if tips is None else (tips.centre, tips.ramp)
     who = (state.paths, state.particles, *model.groups)
     assign_rows(stencil, rows, segments, *who, shape, *place, *ramp)
@@ -76,7 +75,7 @@ def _look_around_tips(model, state, scratch) -> None:
     """Find the nodes beside every tip, and what they see on both sides of its crack."""
     lattice, rows, particles = model.lattice, scratch.rows, state.particles
     grid = (lattice.cells, lattice.width, lattice.lower, model.strides)
-    mark_tip_nodes(rows, state.paths, scratch.segments, smooth_cracks(model), *grid)
+    mark_tip_nodes(rows, state.paths, scratch.segments, scratch.beyond > 0.0, *grid)
     who = (state.paths, particles, *model.groups)
     place = (model.blocks[0].shape, model.strides, lattice.width, model.tip_nodes)
     sum_sides(rows, scratch.stencil, *who, *place)
@@ -85,9 +84,14 @@ def _look_around_tips(model, state, scratch) -> None:
             see_image(rows, m.crack, m.on, m.outside, m.inside)
 
 
-def smooth_cracks(model):
+def smooth_cracks(model) -> np.ndarray:
     """Return for each crack whether its tips are smooth; a glued crack is no crack."""
     return (model.tip_nodes is not None) & (model.contact.kind != GLUED)
+
+
+def beyond_tips(model) -> np.ndarray:
+    """Return how far the tips of each crack are carried on (cracks,), m."""
+    return EXTENSION * model.lattice.width * smooth_cracks(model)
 
 
 def find_openings(model, state, scratch) -> None:

@@ -9,6 +9,7 @@ from cramp_cli.state.paths import EDGE, TIP
 
 ON_CRACK = 1e-9  # a point closer to a crack than this (cells) lies on it
 HAIR = 1e-6  # a point on a vertex is taken to lie this far below it (cells)
+MOST_NODES = 64  # that a particle may see in the plane
 EXTENSION = 4.0  # an edge end is carried on by this many segment lengths
 
 
@@ -24,6 +25,7 @@ class Segments(NamedTuple):
     next: np.ndarray  # (entries,) next entry of the same cell, or -1; segments ascend
     zone: np.ndarray  # (nodes,) 1 for cells whose particles may see a node with several rows
     used: np.ndarray  # (3,) segments, entries in use, entries wanted
+    across: np.ndarray  # (64,) room for what hides the nodes of a particle: crossing.py
 
 
 def make_segments(node_count: int, segment_count: int, entries: int) -> Segments:
@@ -38,6 +40,7 @@ def make_segments(node_count: int, segment_count: int, entries: int) -> Segments
         next=np.zeros(entries, dtype=np.int64),
         zone=np.zeros(node_count, dtype=np.uint8),
         used=np.zeros(3, dtype=np.int64),
+        across=np.zeros(MOST_NODES, dtype=np.int64),
     )
 
 

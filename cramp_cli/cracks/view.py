@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from cramp_cli.cracks.crossing import crossed_cracks
-from cramp_cli.cracks.lines import of_group
+from cramp_cli.cracks.lines import NO_CRACK, of_group
 from cramp_cli.cracks.rows import find_row, row_on_side
 from cramp_cli.cracks.segments import ON_CRACK
 from cramp_cli.numerics.kernel import inlined_kernel, kernel
@@ -61,12 +61,14 @@ def look_from(seen, even, paths, k, crack, side, normal, cut, mass, solid, place
     cell = dot(cell_of(qx, qy, place), strides)
     i0, j0 = cell_of(surface[k, 0], surface[k, 1], place)
     rx, ry = (surface[k, 0] - lower[0]) / width, (surface[k, 1] - lower[1]) / width
+    alone = is_one_crack(segments, cell)
     count, heaviest = 0, 0.0
     for j in range(j0, j0 + 2):
         for i in range(i0, i0 + 2):
             node, n = dot((i, j), strides), (lower[0] + width * i, lower[1] + width * j)
-            tolerance = ON_CRACK * width
-            crossed = crossed_cracks(segments, cell, qx, qy, n[0], n[1], tolerance)
+            crossed = NO_CRACK
+            if not alone or not is_told_by(rows, node, crack):  # else it is this crack or none
+                crossed = crossed_cracks(segments, cell, qx, qy, n[0], n[1], ON_CRACK * width)
             mine, facing = rows_of_surface(rows, crossed, of_crack, crack, side, node)
             S = max(0.0, 1.0 - abs(rx - i)) * max(0.0, 1.0 - abs(ry - j))
             near = mass[mine] if mine >= 0 else 0.0
@@ -82,6 +84,18 @@ def look_from(seen, even, paths, k, crack, side, normal, cut, mass, solid, place
                     heaviest = max(heaviest, m)
                     count += 1
     return count, weigh(seen, count, LIGHT * heaviest if even else inf)
+
+
+@inlined_kernel
+def is_one_crack(segments, cell):
+    """Return whether all segments about a cell are of one crack."""
+    first = segments.head[cell]
+    entry = first
+    while entry >= 0:
+        if segments.crack[segments.item[entry]] != segments.crack[segments.item[first]]:
+            return False
+        entry = segments.next[entry]
+    return True
 
 
 @inlined_kernel

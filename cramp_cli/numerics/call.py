@@ -25,6 +25,7 @@ class Kernel:
 
     def __init__(self, function, **options):
         self.compiled = numba.njit(**options)(function)
+        self._same = {}  # the very arguments of a call: machine code, and they, so that they stay
         self._known = {}  # what was handed: machine code, and the records, so that they stay
         self._spent = 0  # on looking at new arguments, in calls that were quicker since
         update_wrapper(self, function)
@@ -32,31 +33,46 @@ class Kernel:
 
     def __call__(self, *args):
         """Call the machine code for the types of the arguments."""
+        very = tuple([c if (c := type(a)) in _NUMBERS else id(a) for a in args])
+        same = self._same.get(very)
+        if same is not None:
+            return same[0](*args)
+        return self._call_with_others(very, args)
+
+    def _call_with_others(self, very, args):
+        """Call it for arguments that are not those of a call before; their types may be."""
         if self._spent > REMEMBERED * WORTH:  # its records are made anew all the time
             return self.compiled(*args)
         handed = tuple([_recognize(a) for a in args])
         known = self._known.get(handed)
-        if known is not None:
-            self._spent = max(self._spent - 1, 0)
-            return known[0](*args)
-        leave_out_blas()
-        result = self.compiled(*args)
-        self._remember(handed, args)
-        return result
+        if known is None:
+            leave_out_blas()
+            result = self.compiled(*args)
+            self._remember(handed, args)
+            return result
+        self._spent = max(self._spent - 1, 0)
+        _keep(self._same, very, (known[0], args))
+        return known[0](*args)
 
     def _remember(self, handed, args) -> None:
         self._spent += WORTH
         exact = self.compiled.overloads.get(tuple(map(self.compiled.typeof_pyval, args)))
         if exact is None:  # numba converted an argument, which the machine code itself does not
             return
-        if len(self._known) == REMEMBERED:
-            self._known.clear()
-        self._known[handed] = exact.entry_point, args
+        _keep(self._known, handed, (exact.entry_point, args))
 
     def forget(self) -> None:
         """Let go of all records."""
+        self._same.clear()
         self._known.clear()
         self._spent = 0
+
+
+def _keep(table, key, entry) -> None:
+    """Add an entry to a table of few; a full one begins anew."""
+    if len(table) == REMEMBERED:
+        table.clear()
+    table[key] = entry
 
 
 def _recognize(value):

@@ -83,10 +83,12 @@ class Model:
     leaving: str = "error"  # what particles that leave the grid are: transfer/leaving.py
     calm_tips: bool = False  # filter particles around running tips: FLIP does not by itself
     tip_nodes: TipNodes | None = None  # None: cut at once, by the line test alone (the paper)
+    nodes: tuple = field(init=False)
     strides: tuple = field(init=False)
 
     def __post_init__(self) -> None:
-        """Keep the strides at hand: every kernel wants them."""
+        """Keep the nodes along the axes and the strides at hand: many kernels want them."""
+        object.__setattr__(self, "nodes", self.lattice.nodes)
         object.__setattr__(self, "strides", self.lattice.strides)
 
 
@@ -116,7 +118,9 @@ class Scratch:
     stencil: Stencil
     segments: Any
     team: Any  # the threads
+    beyond: np.ndarray  # (cracks,) how far tips are carried on (m)
     report: np.ndarray  # (blocks, bands, 4) what locating the particles found
+    reports: list  # that of each block
     per_band: np.ndarray  # (bands,) sums over the particles of a band
     seen: tuple  # room for what the surfaces of a crack point see, above and below
     shared: list = field(default_factory=list)  # for each block: its particles, shared out

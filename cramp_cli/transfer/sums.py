@@ -6,6 +6,7 @@ from cramp_cli.state.bands import band_axis, band_starts, share_out, sorted_by_c
 from cramp_cli.state.particles import DELETED, is_deleted
 from cramp_cli.transfer import to_grid, to_particles
 from cramp_cli.transfer.leaving import let_leave
+from cramp_cli.transfer.particle_force import load_times_place
 
 
 def locate_particles(model, state, scratch) -> None:
@@ -23,14 +24,14 @@ def locate_particles(model, state, scratch) -> None:
 
 def _locate(model, state, scratch) -> tuple[int, bool]:
     """Return a particle that has left the grid or -1, and whether one has strayed from its band."""
-    lattice, segments, report = model.lattice, scratch.segments, scratch.report
-    grid = (lattice.lower, model.strides, lattice.nodes, lattice.width)
+    lattice, segments = model.lattice, scratch.segments
+    grid = (lattice.lower, model.strides, model.nodes, lattice.width)
     cracks = (segments.head, segments.zone, band_axis(lattice.cells))
     for number, b in enumerate(model.blocks):
         x, F = state.particles.position, state.particles.F
-        args = (scratch.stencil, x, F, b.shape, *grid, *cracks, report[number])
+        args = (scratch.stencil, x, F, b.shape, *grid, *cracks, scratch.reports[number])
         scratch.team.run(to_particles.locate, args, scratch.shared[number].shares)
-    return int(report[:, :, 0].max()), bool(report[:, :, 1].any())
+    return to_particles.gone_and_strayed(scratch.report)
 
 
 def sort_particles(model, state, scratch) -> None:
@@ -96,8 +97,7 @@ def move(model, state, scratch) -> None:
     With a second extrapolation the new momenta are in `grid.saved` afterwards.
     """
     particles, conditions, again = state.particles, model.conditions, model.scheme.again
-    loaded = [f.where(scratch.index) for f in conditions.forces]
-    before = [particles.position[chosen] for chosen, _ in loaded]
+    before = _loads_times_places(model, scratch, particles)
     weighed = _weighed(particles) if conditions.gravity else 0.0
     if again:
         to_grid.clear(scratch.grid.saved, scratch.row_count)
@@ -106,9 +106,9 @@ def move(model, state, scratch) -> None:
         rest = (model.damping, model.dt, again, scratch.per_band)
         _scatter(scratch, to_particles.move_particles, number, *args, *rest)
         state.books.damping[0] += float(scratch.per_band.sum())
-    for f, (chosen, load), x in zip(conditions.forces, loaded, before, strict=True):
-        way = particles.position[chosen] - x
-        state.books.external[0] += f.signal.load(state) * float(np.sum(load * way))
+    after = _loads_times_places(model, scratch, particles)
+    for f, a, b in zip(conditions.forces, before, after, strict=True):
+        state.books.external[0] += f.signal.load(state) * (b - a)
     if conditions.gravity:
         g = conditions.body_force(state, len(model.strides))
         state.books.external[0] += float((_weighed(particles) - weighed) @ g)
@@ -119,6 +119,13 @@ def smooth(model, state, scratch, target, field) -> None:
     particles = (state.particles, scratch.stencil)
     for number, b in _solids(model):
         _scatter(scratch, to_grid.smooth, number, target, field, *particles, b.shape, model.strides)
+
+
+def _loads_times_places(model, scratch, particles) -> list:
+    """Return the sum of load times place of each force on particles."""
+    x, strides = particles.position, model.strides
+    forces = model.conditions.forces
+    return [load_times_place(x, f.particles, f.load, scratch.index, strides) for f in forces]
 
 
 def _weighed(particles) -> np.ndarray:

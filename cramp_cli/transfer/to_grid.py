@@ -23,7 +23,6 @@ from cramp_cli.shapes.shape import (
     gradients,
     hoop_pull,
     is_ring,
-    offsets,
     place_of,
     seen_from,
     weights,
@@ -126,26 +125,6 @@ def _internal_force_near(grid, particles, stencil, shape, strides, width, run):
             if is_ring(shape):
                 w = stencil.share[line, e] * S[stencil.which[line, e]]
                 add(force, table[line, e], w, pull)
-
-
-@kernel
-def sum_particle_force(grid, chosen, load, stencil, shape, strides, factor):
-    """Add f_i = sum S P_p for the particles `chosen` with forces factor * load (N)."""
-    force = grid.force
-    base, near = stencil.base, stencil.near
-    entries, which, table, share = stencil.entries, stencil.which, stencil.table, stencil.share
-    steps = offsets(strides, shape)
-    for c in range(len(chosen)):
-        p = chosen[c]
-        S = scaled(weights(place_of(shape, strides, stencil, p), shape), factor)
-        P = vector(strides, load, c)
-        first, line = base[p], near[p]
-        if line < 0:
-            for k in range(len(steps)):
-                add(force, first + steps[k], S[k], P)
-        else:
-            for e in range(entries[line]):
-                add(force, table[line, e], share[line, e] * S[which[line, e]], P)
 
 
 @particle_kernel

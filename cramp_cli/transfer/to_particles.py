@@ -94,6 +94,17 @@ def locate(
         report[band, 2], report[band, 3] = close, short
 
 
+@kernel
+def gone_and_strayed(report):
+    """Return a particle that has left the grid or -1, and whether one has strayed from its band."""
+    gone, strayed = -1, False
+    for block in range(len(report)):
+        for found in report[block]:
+            gone = max(gone, found[0])
+            strayed = strayed or found[1] > 0
+    return gone, strayed
+
+
 @particle_kernel
 def move_particles(
     particles, grid, stencil, update, shape, strides, damping, dt, again, taken, parts

@@ -8,7 +8,8 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 from shapely import LineString, Point
 
-from cramp_cli.cracks.crossing import crossed_cracks
+from cramp_cli.cracks.crossing import crossed_cracks, crossed_once, hidden_nodes, off_crack
+from cramp_cli.cracks.lines import NO_CRACK
 from cramp_cli.cracks.segments import ON_CRACK, list_segments, make_segments
 from cramp_cli.state.lattice import Lattice
 from cramp_cli.state.paths import EDGE, PLAIN, make_paths
@@ -18,17 +19,27 @@ STRAIGHT = ((-1.0, 0.0), (0.0, 0.0), (1.0, 0.0))
 ABOVE, BELOW, NONE = 1, -1, 0
 
 
-def answer(cracks, particle, node, lattice=LATTICE, ends=PLAIN):
-    """Return ((crack, side), ...) of the first two crossed cracks and the number of others."""
+def laid_out(cracks, lattice=LATTICE, ends=PLAIN):
+    """Return the segments of cracks, listed by cell."""
     count = sum(len(line) - 1 for line in cracks)
     n = len(cracks)
     paths = make_paths(cracks, [(ends, ends)] * n, [0] * n, [(-1, 0)] * n, 2)
     segments = make_segments(lattice.node_count, count, 81 * count)
     place = (lattice.cells, lattice.width, lattice.lower, lattice.strides)
     assert list_segments(segments, paths, *place, 1, 4, np.zeros(paths.crack_count))
-    cell = np.floor((np.array(particle) - lattice.lower) / lattice.width) @ lattice.strides
+    return segments
+
+
+def cell_of(point, lattice=LATTICE):
+    """Return the lowest node of the cell of a point."""
+    return int(np.floor((np.array(point) - lattice.lower) / lattice.width) @ lattice.strides)
+
+
+def answer(cracks, particle, node, lattice=LATTICE, ends=PLAIN):
+    """Return ((crack, side), ...) of the first two crossed cracks and the number of others."""
+    segments, cell = laid_out(cracks, lattice, ends), cell_of(particle, lattice)
     points = tuple(map(float, (*particle, *node)))
-    a, side_a, _, b, side_b, _, more = crossed_cracks(segments, int(cell), *points, ON_CRACK)
+    a, side_a, _, b, side_b, _, more = crossed_cracks(segments, cell, *points, ON_CRACK)
     return tuple((c, side) for c, side in ((a, side_a), (b, side_b)) if c >= 0), more
 
 
@@ -232,3 +243,42 @@ def test_two_cracks_and_more():
     assert answer(levels, (0.1, 0.9), (0.0, 0.0)) == (((0, ABOVE), (2, ABOVE)), 0)
     assert answer(levels, (0.1, 0.9), (0.0, -1.0)) == (((0, ABOVE), (1, ABOVE)), 1)
     assert answer(levels, (0.1, -0.4), (0.0, 0.0)) == (((1, BELOW),), 0)
+
+
+def quick_and_exact(cracks, particle, side=4):
+    """Return for the nodes around a particle: its quick answer, or None; and the exact one."""
+    segments, cell = laid_out(cracks), cell_of(particle)
+    lowest = tuple(map(float, np.floor(particle) - 1.0))
+    x, y = map(float, particle)
+    hidden, unsure = hidden_nodes(segments, cell, x, y, lowest, 1.0, side, ON_CRACK)
+    x, y = off_crack(segments, cell, x, y, ON_CRACK)
+    for k in range(side * side):
+        quick = crossed_once(segments, k) if hidden >> k & 1 else NO_CRACK
+        n = (lowest[0] + k % side, lowest[1] + k // side)
+        n = off_crack(segments, cell, *n, ON_CRACK)
+        exact = crossed_cracks(segments, cell, x, y, *n, ON_CRACK)
+        yield None if unsure >> k & 1 else quick, exact
+
+
+some_lines = st.lists(lines(coordinate) | lines(quarter), min_size=1, max_size=3)
+anywhere = st.tuples(coordinate, coordinate) | st.tuples(quarter, quarter)
+
+
+@settings(max_examples=600)
+@given(cracks=some_lines, particle=anywhere)
+@example([[(-2.0, 0.0), (2.0, 0.0)], [(0.0, -2.0), (0.0, 2.0)]], (-0.5, 0.5))  # cross at a node
+@example([[(-2.0, -2.0), (2.0, 2.0)]], (0.25, 0.5))  # nodes on the crack
+def test_the_quick_answer_is_the_exact_one_where_there_is_one(cracks, particle):
+    for quick, exact in quick_and_exact(cracks, particle):
+        assert quick is None or quick == exact
+
+
+@pytest.mark.parametrize(
+    "line", [((-1.6, 0.0), (0.7, 0.0)), ((-1.9, -1.3), (0.1, 0.2), (1.7, 1.9))]
+)
+@pytest.mark.parametrize("particle", [(0.25, 0.25), (-0.3, -0.7), (0.4, -0.2)])
+def test_most_nodes_have_a_quick_answer(line, particle):
+    """In line with an end of a segment, nodes want a closer look: few do."""
+    answers = list(quick_and_exact([line], particle))
+    assert sum(quick is None for quick, _ in answers) <= 1
+    assert any(quick not in (None, NO_CRACK) for quick, _ in answers)
