@@ -10,7 +10,7 @@ from cramp_cli.numerics.matrix import (
     zero_matrix,
 )
 from cramp_cli.numerics.vector import vector
-from cramp_cli.shapes.shape import offsets, place_of, weights
+from cramp_cli.shapes.shape import node_steps, offsets, place_of, weights
 
 
 class Box(NamedTuple):
@@ -23,52 +23,62 @@ class Box(NamedTuple):
 
 
 @kernel
-def sum_fields(sums, particles, stencil, shape, strides, box, nodes, lo, hi):
+def place_in(box, i, j, row, nodes):
+    """Return where the sums of a row of node i, j stand; nodes: rows that are nodes."""
+    if row < nodes:
+        return i - box.i + (j - box.j) * box.wide
+    return box.wide * box.high + row - nodes
+
+
+@kernel
+def sum_fields(sums, particles, stencil, shape, strides, box, nodes, lower, width, lo, hi):
     """Add mass-weighted fields of particles lo..hi to the rows of the nodes in a box.
 
     sums: (box nodes + extra rows, 11): mass, du_x/dx, du_x/dy, du_y/dx, du_y/dy, stress xx, yy, xy,
     energy density, kinetic energy density, and volume over mass. The gradient is R F R^T - 1: it
     must hold the rotation.
     """
-    stress, volume, mass = particles.stress, particles.volume, particles.mass
-    base, near = stencil.base, stencil.near
-    entries, which, table, share = stencil.entries, stencil.which, stencil.table, stencil.share
-    steps = offsets(strides, shape)
-    like = zero_matrix(strides)
-    inside = box.wide * box.high
+    position, seen = particles.position, len(node_steps(shape, 1)) * width
+    west, south = lower[0] + width * box.i, lower[1] + width * box.j
+    east, north = west + width * box.wide, south + width * box.high
     for p in range(lo, hi):
-        i, j = base[p] % strides[1] - box.i, base[p] // strides[1] - box.j
-        if i < -3 or j < -3 or i >= box.wide or j >= box.high:
+        x, y = position[p, 0], position[p, 1]
+        if x > west - seen and x < east + seen and y > south - seen and y < north + seen:
+            _add_fields(sums, particles, stencil, shape, strides, box, nodes, p)
+
+
+@kernel
+def _add_fields(sums, particles, stencil, shape, strides, box, nodes, p):
+    stress, volume, mass = particles.stress, particles.volume, particles.mass
+    which, table, share = stencil.which, stencil.table, stencil.share
+    steps, line = offsets(strides, shape), stencil.near[p]
+    S = weights(place_of(shape, strides, stencil, p), shape)
+    F = matrix(zero_matrix(strides), particles.F, p)
+    R = rotation_of(F)
+    H = product(product(R, F), (R[0], R[2], R[1], R[3]))
+    v = vector(strides, particles.velocity, p)
+    kinetic = 0.5 * mass[p] / volume[p] * (v[0] * v[0] + v[1] * v[1])
+    for e in range(len(steps) if line < 0 else stencil.entries[line]):
+        k, w = e, mass[p]
+        if line >= 0:
+            k, w = which[line, e], mass[p] * share[line, e]
+        node = stencil.base[p] + steps[k]
+        i, j = node % strides[1], node // strides[1]
+        if i < box.i or j < box.j or i >= box.i + box.wide or j >= box.j + box.high:
             continue
-        S = weights(place_of(shape, strides, stencil, p), shape)
-        F = matrix(like, particles.F, p)
-        R = rotation_of(F)
-        H = product(product(R, F), (R[0], R[2], R[1], R[3]))
-        v = vector(strides, particles.velocity, p)
-        kinetic = 0.5 * mass[p] / volume[p] * (v[0] * v[0] + v[1] * v[1])
-        line = near[p]
-        count = len(steps) if line < 0 else entries[line]
-        for e in range(count):
-            k, row, w = e, base[p] + steps[e % len(steps)], mass[p]
-            if line >= 0:
-                k, row, w = which[line, e], table[line, e], mass[p] * share[line, e]
-            node = base[p] + steps[k]
-            i, j = node % strides[1] - box.i, node // strides[1] - box.j
-            if i < 0 or j < 0 or i >= box.wide or j >= box.high:
-                continue
-            to = i + j * box.wide if row < nodes else inside + row - nodes
-            w *= S[k]
-            sums[to, 0] += w
-            sums[to, 1] += w * (H[0] - 1.0)
-            sums[to, 2] += w * H[1]
-            sums[to, 3] += w * H[2]
-            sums[to, 4] += w * (H[3] - 1.0)
-            sums[to, 5] += w * stress[p, 0]
-            sums[to, 6] += w * stress[p, 1]
-            sums[to, 7] += w * stress[p, 3]
-            sums[to, 8] += w * particles.work[p]
-            sums[to, 9] += w * kinetic
-            sums[to, 10] += w * volume[p] / mass[p]
+        to = place_in(box, i, j, node if line < 0 else table[line, e], nodes)
+        w *= S[k]
+        sums[to, 0] += w
+        sums[to, 1] += w * (H[0] - 1.0)
+        sums[to, 2] += w * H[1]
+        sums[to, 3] += w * H[2]
+        sums[to, 4] += w * (H[3] - 1.0)
+        sums[to, 5] += w * stress[p, 0]
+        sums[to, 6] += w * stress[p, 1]
+        sums[to, 7] += w * stress[p, 3]
+        sums[to, 8] += w * particles.work[p]
+        sums[to, 9] += w * kinetic
+        sums[to, 10] += w * volume[p] / mass[p]
 
 
 @kernel

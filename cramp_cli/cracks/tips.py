@@ -29,7 +29,7 @@ from cramp_cli.state.paths import TIP
 BESIDE = 3.0  # cells behind a tip and beside the crack in which the sides are told apart
 USUAL, SMALLEST = 5.0, 2.5  # radius of the domain in cells, and the least that gives a number
 REACH = 8.0  # cells around a tip or the corner of a kink that an integral can want
-SPREAD = (0.8, 1.0, 1.2)  # radii that are compared, in shares of the radius
+SPREAD = (0.8, 1.2)  # further radii that are compared, in shares of the radius
 CORRECTED = "corrected: the domain holds another material"
 STAGES = {
     MIXED: CORRECTED,
