@@ -1,7 +1,7 @@
 """Calls of compiled loops that do not look at what they have seen before."""
 
 from contextlib import contextmanager
-from functools import update_wrapper
+from functools import cached_property, update_wrapper
 
 import numba
 import numpy as np
@@ -24,12 +24,17 @@ class Kernel:
     """
 
     def __init__(self, function, **options):
-        self.compiled = numba.njit(**options)(function)
+        self._function, self._options = function, options
         self._same = {}  # the very arguments of a call: machine code, and they, so that they stay
         self._known = {}  # what was handed: machine code, and the records, so that they stay
         self._spent = 0  # on looking at new arguments, in calls that were quicker since
         update_wrapper(self, function)
         _KERNELS.append(self)
+
+    @cached_property
+    def compiled(self):
+        """Numba's function; a run wants one kernel in six, and each takes a quarter of a ms."""
+        return numba.njit(**self._options)(self._function)
 
     def __call__(self, *args):
         """Call the machine code for the types of the arguments."""

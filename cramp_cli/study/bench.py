@@ -212,7 +212,8 @@ def time_start() -> dict[str, float]:
         taken = []
         for _ in range(3):
             begun = perf_counter()
-            subprocess.run([*command, "-o", f"{folder}/run"], env=environment, check=True)
+            run = [*command, "-o", f"{folder}/run"]
+            subprocess.run(run, env=environment, check=True, stdout=subprocess.DEVNULL)
             taken.append(perf_counter() - begun)
     return {"cold": taken[0], "warm": min(taken[1:])}
 
