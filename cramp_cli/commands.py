@@ -233,7 +233,8 @@ def run_bench(
     found = bench(count, large, only, tell)
     if start:
         found["start"] = time_start()
-        say("start: {cold:.1f} s with nothing compiled, {warm:.2f} s warm".format(**found["start"]))
+        text = "first step: after {cold:.1f} s with nothing compiled, {warm:.2f} s warm"
+        say((text + "; run of one step: {over:.2f} s").format(**found["start"]))
     print(json.dumps(found, indent=2) if as_json else table(found, old, HEAD, row))
 
 

@@ -39,9 +39,7 @@ Wrong = tuple[tuple[str | int, ...], str]  # path below the section, message
 class Section(BaseModel):
     """A mapping of known keys that does not change after reading."""
 
-    model_config = ConfigDict(
-        frozen=True, extra="forbid", allow_inf_nan=False, defer_build=True
-    )
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False, defer_build=True)
 
     @classmethod
     def prepare(cls, data: dict, folder: Path | None) -> dict:

@@ -202,20 +202,32 @@ def _bytes(thing) -> int:
 
 
 def time_start() -> dict[str, float]:
-    """Return seconds that one step of a small deck takes, with nothing compiled and with all."""
+    """Return seconds from the command to the end of a first step: nothing compiled, and all.
+
+    And to the end of that run of one step.
+    """
     with tempfile.TemporaryDirectory() as folder:
         deck = Path(folder) / "start.yaml"
         deck.write_text(yaml.safe_dump(block(20, cracked=True, end_time=1e-9)), encoding="utf-8")
         environment = os.environ | {"CRAMP_CACHE_DIR": folder, "PYTHONPYCACHEPREFIX": folder}
         environment.pop("PYTHONDONTWRITEBYTECODE", None)
-        command = [sys.executable, "-m", "cramp_cli", "-q", "run", str(deck), "--overwrite"]
-        taken = []
-        for _ in range(3):
-            begun = perf_counter()
-            run = [*command, "-o", f"{folder}/run"]
-            subprocess.run(run, env=environment, check=True, stdout=subprocess.DEVNULL)
-            taken.append(perf_counter() - begun)
-    return {"cold": taken[0], "warm": min(taken[1:])}
+        command = [sys.executable, "-m", "cramp_cli", "run", str(deck), "--overwrite"]
+        taken = [_time_first_step([*command, "-o", f"{folder}/run"], environment) for _ in range(4)]
+    (cold, _), *warm = taken
+    return {"cold": cold, "warm": median(w[0] for w in warm), "over": median(w[1] for w in warm)}
+
+
+def _time_first_step(command: list[str], environment: dict) -> tuple[float, float]:
+    """Return the seconds until a run tells of its first step, and until it is over."""
+    begun, first = perf_counter(), None
+    told = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
+    with subprocess.Popen(command, env=environment, **told) as run:
+        for line in run.stdout:
+            if first is None and line.split()[:1] == ["1"]:
+                first = perf_counter() - begun
+    if run.returncode or first is None:
+        raise RuntimeError(f"the run that was timed has ended with {run.returncode}")
+    return first, perf_counter() - begun
 
 
 def bench(threads: int, large: bool, wanted: list[str], tell) -> dict:
