@@ -15,6 +15,7 @@ from cramp_cli.schema.mistake import DeckError
 from cramp_cli.schema.section import unknown
 from cramp_cli.schema.unit_text import UnitError, base_units, split
 from cramp_cli.study.cases import Case, shown
+from cramp_cli.study.columns import between
 from cramp_cli.study.outcome import SweepFolder
 from cramp_cli.study.results import WORDS, Columns, by_tip, read_table
 
@@ -100,7 +101,8 @@ def _take(table: Columns, one: Reduction) -> float | None:
     if one.take == "last":
         return float(values[-1]) if len(values) else None
     if one.take == "at":
-        return float(values[np.argmin(np.abs(table["time"] - one.time))]) if len(values) else None
+        found = float(between(np.array([one.time]), table["time"], values)[0])
+        return None if np.isnan(found) else found
     known = values[np.isfinite(values)]
     return float(getattr(known, one.take)()) if len(known) else None
 

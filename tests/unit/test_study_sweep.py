@@ -378,6 +378,18 @@ def test_a_row_per_case_with_its_numbers(study):
     assert (second["title"], second["state"], second["notch_end.J.min"]) == ("b", "missing", "")
 
 
+@pytest.mark.parametrize(("time", "K_I"), [("1.5 us", "300000.0"), ("1 ms", "")])
+def test_a_number_at_a_time_is_that_of_this_time(study, time, K_I):
+    """K_I rises by 2e5 in each us until 2 us: the row nearest to 1.5 us has 2e5 or 4e5."""
+    take = f"collect: [{{column: K_I, take: at, time: {time}}}]"
+    path = study(HEAD + "  - {type: list, cases: [{thickness: 1 mm}]}\n" + take)
+    opened = open_study(path)
+    write_run(opened.folder.run(opened.cases[0].name), K_I=4e5)
+    with collect_study(path, None, None).open(encoding="utf-8", newline="") as file:
+        (row,) = csv.DictReader(file)
+    assert list(row.values())[-1] == K_I
+
+
 def test_the_page_of_a_sweep_holds_every_case(study):
     path = study(HEAD + "  - {type: list, cases: [{thickness: 1 mm}, {title: <b>}]}\n" + COLLECT)
     opened = open_study(path)
