@@ -25,7 +25,7 @@ from cramp_cli.boundary.velocity import (
     hold_momentum,
     hold_zero,
 )
-from cramp_cli.state.particles import DELETED
+from cramp_cli.state.particles import DELETED, is_deleted
 from cramp_cli.state.signal import Signal
 from cramp_cli.transfer.on_grid import add_gravity
 from cramp_cli.transfer.to_grid import sum_particle_force
@@ -288,4 +288,22 @@ def add_loads(model, scratch, state) -> None:
         places = (scratch.index, t.faces, t.shape, strides)
         add_traction(grid.force, scratch.stencil, *places, t.signal.load(state))
     if conditions.gravity:
-        add_gravity(grid, scratch.row_count, conditions.body_force(state, len(strides)))
+        _add_weight(model, scratch, state)
+
+
+def _add_weight(model, scratch, state) -> None:
+    """Add the weight of all bodies.
+
+    Rows beside a symmetry plane hold the mass of the image as well, and forces are reflected yet:
+    there each particle gives the weight of its own.
+    """
+    conditions, strides, grid = model.conditions, model.strides, scratch.grid
+    gravity = conditions.body_force(state, len(strides))
+    if not conditions.mirrors:
+        add_gravity(grid, scratch.row_count, gravity)
+        return
+    there = ~is_deleted(state.particles)
+    for b in model.blocks:
+        chosen = b.lo + np.flatnonzero(there[b.lo : b.hi])
+        weight = state.particles.mass[chosen, None] * np.array(gravity)
+        sum_particle_force(grid, chosen, weight, scratch.stencil, b.shape, strides, 1.0)
