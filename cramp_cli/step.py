@@ -51,11 +51,11 @@ def step(model, state, scratch, watch) -> None:
         touch_bodies(model, state, scratch, FIRST)
         touch(grid, rows, laws, model.strides, dt, FIRST)
         repeat_images(conditions, scratch, grid.momentum, grid.saved)
-        book_tractions(model, scratch, state)
 
     with watch("4 strain before the forces"):  # all of the step in USF, half in USAVG, none in USL
+        hold_momenta(conditions, scratch, state)
+        book_tractions(model, scratch, state)
         if model.scheme.before:
-            hold_momenta(conditions, scratch, state)
             find_strain_velocity(model, state, scratch)
             sums.strain(model, state, scratch, model.scheme.before)
         grid.momentum[:count] = grid.saved[:count]

@@ -281,4 +281,22 @@ def add_loads(model, scratch, state) -> None:
         places = (scratch.index, t.faces, t.shape, strides)
         add_traction(grid.force, scratch.stencil, *places, t.signal.load(state))
     if conditions.gravity:
-        add_gravity(grid, scratch.row_count, conditions.body_force(state, len(strides)))
+        _add_weight(model, scratch, state)
+
+
+def _add_weight(model, scratch, state) -> None:
+    """Add the weight of all bodies.
+
+    Rows beside a symmetry plane hold the mass of the image as well, and forces are reflected yet:
+    there each particle gives the weight of its own.
+    """
+    conditions, strides, grid = model.conditions, model.strides, scratch.grid
+    gravity = conditions.body_force(state, len(strides))
+    if not conditions.mirrors:
+        add_gravity(grid, scratch.row_count, gravity)
+        return
+    for b in (b for b in model.blocks if b.law is not None):
+        own = slice(b.lo, b.hi)
+        weight = state.particles.mass[own, None] * np.array(gravity)
+        loaded = (state.particles.id[own], weight, scratch.index)
+        sum_particle_force(grid, *loaded, scratch.stencil, b.shape, strides, 1.0)

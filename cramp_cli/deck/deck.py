@@ -36,7 +36,7 @@ from cramp_cli.schema.units import Length, complaint
 __all__ = ["Deck", "DeckError", "Mistake", "read_deck", "to_yaml"]
 
 FORMAT = 1
-NEARLY_INCOMPRESSIBLE = 0.49  # Poisson's ratio
+NEARLY_INCOMPRESSIBLE = 0.48  # Poisson's ratio; J of a tip is doubtful then (cracks/doubts.py)
 
 
 def _format(version: int) -> int:
@@ -190,8 +190,8 @@ def _warnings(deck: Deck) -> Iterator[Wrong]:
         message = f"'cpdi' may tear a solid that is drawn far out with {solver}"
         yield ("solver", "shape"), f"{message}; use update: flip and strain: usavg-"
     for name, material in deck.materials.items():
-        stiff = isinstance(material, Isotropic) and material.poisson > NEARLY_INCOMPRESSIBLE
-        if deck.analysis == "plane_strain" and stiff:
+        stiff = isinstance(material, Isotropic) and material.poisson >= NEARLY_INCOMPRESSIBLE
+        if deck.analysis != "plane_stress" and stiff:
             key = "nu" if getattr(material, "nu", None) is not None else "K"
             message = f"nearly incompressible (nu = {material.poisson:.6g}): stresses may lock"
             yield ("materials", name, key), message

@@ -139,7 +139,9 @@ class Reduction(Section):
 
     column: str = Field(description="column of cracks.csv, history.csv or growth.csv")
     take: Literal["max", "min", "last", "at"] = Field("last", description="which number")
-    time: Time | None = Field(None, gt=0, description="for `at`: the row nearest to this time")
+    time: Time | None = Field(
+        None, gt=0, description="for `at`: linearly between the rows around it; nothing beyond them"
+    )
     table: Literal["cracks", "history", "growth"] | None = Field(
         None, description="its table; cracks if it has the column, else history"
     )

@@ -51,6 +51,7 @@ class Reporter:
         self._total: float | None = None
         self._next_time, self._next_wall = 0.0, 0.0
         self._first: tuple[float, float] | None = None
+        self._columns: list[str] | None = None
         self._bar = None
 
     def __enter__(self) -> "Reporter":
@@ -100,8 +101,8 @@ class Reporter:
             self._bar = None
 
     def _add_line(self, step: int, time: float, wall: float, extra: dict[str, float]) -> None:
-        lines = [progress_head(extra)] if self._first is None else []
-        self._first = self._first or (time, wall)
+        lines = [progress_head(extra)] if list(extra) != self._columns else []
+        self._first, self._columns = self._first or (time, wall), list(extra)
         done = time / self._total if self._total else 0.0
         lines.append(progress_line(step, time, done, self._left(time, wall), extra))
         self.log.write("info", "\n".join(lines))

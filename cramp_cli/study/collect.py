@@ -15,10 +15,12 @@ from cramp_cli.schema.mistake import DeckError
 from cramp_cli.schema.section import unknown
 from cramp_cli.schema.unit_text import UnitError, base_units, split
 from cramp_cli.study.cases import Case, shown
+from cramp_cli.study.columns import between
 from cramp_cli.study.outcome import SweepFolder
 from cramp_cli.study.results import WORDS, Columns, by_tip, read_table
 
 Row = dict[str, object]
+STATUS = "status"  # of a tip: what those rows say from which its numbers are
 TABLES = {"cracks": CRACK_COLUMNS, "history": HISTORY_COLUMNS, "growth": GROWTH_COLUMNS}
 
 
@@ -55,8 +57,7 @@ def collect(
         if wall_time:
             row["wall_time"] = outcome.wall_time
         if outcome.word == "done":
-            for one in wanted:
-                row |= _reduced(folder.run(case.name), one)
+            row |= _numbers(folder.run(case.name), wanted)
         rows.append(row)
     return rows
 
@@ -72,19 +73,36 @@ def in_si(value: object) -> object:
         return value
 
 
-def _reduced(run: Path, one: Reduction) -> Row:
-    """Return the columns of one reduction: one for each tip, or one of the history."""
+def _numbers(run: Path, wanted: Sequence[Reduction]) -> Row:
+    """Return the columns of all reductions, and for each tip what the status of their rows says."""
+    numbers: Row = {}
+    statuses: dict[str, list[str]] = {}
+    for one in wanted:
+        for tip, table in _tables(run, one).items():
+            numbers[_name(tip, one)], used = _take(table, one)
+            if "status" in table:
+                name = f"{tip.replace(' ', '_')}.{STATUS}"
+                statuses.setdefault(name, []).extend(table["status"][used].tolist())
+    return numbers | {name: _told(several) for name, several in statuses.items()}
+
+
+def _tables(run: Path, one: Reduction) -> dict[str, Columns]:
+    """Return the table of a reduction for each of its tips; that of the history without a name."""
     source = table_of(one)
     table = read_table(run / f"{source}.csv")
     if source == "history":
         if one.column not in table:
             raise FolderError(f"{run / 'history.csv'}: {unknown('column', one.column, table)}")
-        return {_name("", one): _take(table, one)}
+        return {"": table}
     tips = by_tip(table)
     if one.tip is not None and source == "cracks" and one.tip not in tips:
         raise FolderError(f"{run / 'cracks.csv'}: {unknown('tip', one.tip, tips)}")
-    chosen = [tip for tip in tips if one.tip in (None, tip)]
-    return {_name(tip, one): _take(tips[tip], one) for tip in chosen}
+    return {tip: rows for tip, rows in tips.items() if one.tip in (None, tip)}
+
+
+def _told(statuses: Sequence[str]) -> str:
+    """Return what the status of several rows says, each thing once; ok where all rows are."""
+    return " | ".join(dict.fromkeys(one for one in statuses if one != "ok")) or "ok"
 
 
 def _name(tip: str, one: Reduction) -> str:
@@ -94,15 +112,23 @@ def _name(tip: str, one: Reduction) -> str:
     return ".".join([*([tip.replace(" ", "_")] if tip else []), *growth, one.column, take])
 
 
-def _take(table: Columns, one: Reduction) -> float | None:
-    """Return the number that a reduction takes from a column; None if there is none."""
-    values = table[one.column]
+def _take(table: Columns, one: Reduction) -> tuple[float | None, np.ndarray]:
+    """Return the number that a reduction takes from a column, None if there is none, and its rows.
+
+    Where there is none the rows are those that could have had it.
+    """
+    values, rows = table[one.column], np.arange(len(table[one.column]))
     if one.take == "last":
-        return float(values[-1]) if len(values) else None
+        return (float(values[-1]) if len(values) else None), rows[-1:]
     if one.take == "at":
-        return float(values[np.argmin(np.abs(table["time"] - one.time))]) if len(values) else None
-    known = values[np.isfinite(values)]
-    return float(getattr(known, one.take)()) if len(known) else None
+        found = float(between(np.array([one.time]), table["time"], values)[0])
+        after = int(np.searchsorted(table["time"], one.time))
+        return (None if np.isnan(found) else found), rows[max(after - 1, 0) : after + 1]
+    known = rows[np.isfinite(values)]
+    if not len(known):
+        return None, rows
+    best = known[getattr(np, f"arg{one.take}")(values[known])]
+    return float(values[best]), rows[best : best + 1]
 
 
 def to_csv(rows: Sequence[Row]) -> str:

@@ -76,7 +76,7 @@ def at_times_of(reference: Columns, new: Columns) -> Columns:
     for mine, others in _tips(reference, new):
         wanted, known = reference.columns["time"][mine], new.columns["time"][others]
         for name, values in columns.items():
-            values[mine] = _between(wanted, known, new.columns[name][others])
+            values[mine] = between(wanted, known, new.columns[name][others])
     return Columns(new.name, columns, is_table=True)
 
 
@@ -84,7 +84,8 @@ def _keys(table: Columns) -> list[str]:
     return [name for name in KEYS if name in table.columns]
 
 
-def _between(wanted: np.ndarray, known: np.ndarray, values: np.ndarray) -> np.ndarray:
+def between(wanted: np.ndarray, known: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Return values at the times wanted, linearly between those known (s); nan outside of them."""
     if not len(known):
         return np.full(len(wanted), np.nan)
     slack = 1e-9 * max(abs(known[0]), abs(known[-1]))

@@ -8,7 +8,8 @@ from cramp_cli.output.exits import FolderError
 from cramp_cli.output.fields import Frame
 from cramp_cli.schema.section import unknown
 
-COMPONENTS = {"xx": 0, "xy": 1, "yy": 4, "zz": 8}
+COMPONENTS = {"xx": 0, "xy": 1, "yx": 3, "yy": 4, "zz": 8}
+SYMMETRIC = ("stress", "strain")  # of these xy is yx
 UNITS = {
     "stress": "Pa",
     "strain": "1",
@@ -53,7 +54,8 @@ def quantities(frame: Frame) -> dict[str, str]:
             names[field] = field
         if values.ndim == 2:
             parts = ("x", "y") if values.shape[1] == 3 else COMPONENTS
-            names |= {f"{field}_{part}": field for part in parts}
+            twice = {"yx"} if field in SYMMETRIC else set()
+            names |= {f"{field}_{part}": field for part in parts if part not in twice}
     if "stress" in frame.fields:
         names["von_mises"] = "stress"
     return names

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from cramp_cli.output.tables import number
 from cramp_cli.study.cases import shown
-from cramp_cli.study.collect import Row
+from cramp_cli.study.collect import STATUS, Row
 from cramp_cli.study.html_page import embedded, table, write_page
 from cramp_cli.study.outcome import WORDS
 from cramp_cli.study.results import unit_of
@@ -23,14 +23,15 @@ def sweep_report(target: Path, title: str, rows: Sequence[Row]) -> Path:
     names = list(dict.fromkeys(name for row in rows for name in row))
     varied = [n for n in names if any(n in _before_state(row) for row in rows)]
     results = [name for name in names if name not in (*varied, *BESIDE)]
-    drawn = [{name: _plotted(row.get(name)) for name in (*varied, *results)} for row in rows]
+    plotted = [name for name in results if not name.endswith(f".{STATUS}")]
+    drawn = [{name: _plotted(row.get(name)) for name in (*varied, *plotted)} for row in rows]
     counts = Counter(row["state"] for row in rows)
     told = ", ".join(f"{counts[word]} {word}" for word in WORDS if counts[word])
     parts = {
         "title": html.escape(title),
         "subtitle": f"{len(rows)} cases: {told}",
         "cases": _cases(rows, [*varied, "state", "wall_time", *results]),
-        "data": embedded({"rows": drawn, "parameters": varied, "numbers": _with_units(results)}),
+        "data": embedded({"rows": drawn, "parameters": varied, "numbers": _with_units(plotted)}),
     }
     return write_page(target, "sweep", parts)
 

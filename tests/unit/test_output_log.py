@@ -44,6 +44,20 @@ def test_a_slow_run_speaks_every_minute(capsys):
     assert len(capsys.readouterr().err.splitlines()) == 12
 
 
+def test_other_numbers_get_a_head_of_their_own(capsys):
+    """When the last tip is gone the energy error is shown, and not as a J."""
+    reporter = Reporter(progress="lines")
+    reporter.start(1.0, "A plate breaks", {})
+    reporter.progress(1, 0.4, 1.0, {"J": 336.0, "K_I": 1e6})
+    reporter.progress(2, 0.6, 2.0, {"energy_error": -0.04})
+    lines = capsys.readouterr().err.splitlines()[1:]
+    assert [line.split()[4:] for line in (lines[0], lines[2])] == [
+        ["left", "J", "K_I"],
+        ["left", "energy_error"],
+    ]
+    assert lines[3].split()[-1] == "-0.04"
+
+
 def test_the_log_holds_everything_though_the_screen_is_quiet(capsys, tmp_path):
     log = Log(tmp_path / "run.log")
     reporter = Reporter(log, progress="none", verbosity=0)

@@ -92,6 +92,16 @@ AROUND = {
         [EDGE],
         {"fracture": DOMAIN, "materials": {"wood": FIBRES}, "bodies": pieces("wood", "wood")},
         "K invalid: the stiffness of the material depends on direction or time"),
+    "a solid that hardly changes its volume": (
+        [EDGE],
+        {"fracture": DOMAIN, "analysis": "plane_strain", "materials": {"soft": {"nu": 0.48}}},
+        "doubtful: nearly incompressible (nu = 0.48): stresses lock, J is low"),
+    "few particles": (
+        [EDGE],
+        {"fracture": DOMAIN, "bodies": [
+            {"name": "plate", "material": "soft", "shape": rectangle(0, 0, 30, 20),
+             "particles_per_cell": 1}]},
+        "doubtful: fewer than 2 particles along each side of a cell: J is low"),
 }  # fmt: skip
 
 

@@ -81,6 +81,17 @@ def test_quantities_of_a_frame(run):
         quantity(frame, "velocity_x")
 
 
+def test_a_deformation_gradient_has_both_shears(run):
+    frame = frame_at(run, "particles")
+    n = len(frame.points)
+    F = np.tile([1.0, 0.1, 0.0, -0.2, 1.0, 0.0, 0.0, 0.0, 1.0], (n, 1))
+    frame = frame._replace(fields=frame.fields | {"deformation_gradient": F})
+    assert np.all(quantity(frame, "deformation_gradient_xy").values == 0.1)
+    assert np.all(quantity(frame, "deformation_gradient_yx").values == -0.2)
+    with pytest.raises(FolderError, match="unknown quantity 'stress_yx'"):
+        quantity(frame, "stress_yx")
+
+
 def test_magnified_squares_move_that_much_further(run):
     frame = frame_at(run, "particles")
     sizes = np.full(len(frame.points), 1e-3)

@@ -372,10 +372,45 @@ def test_a_row_per_case_with_its_numbers(study):
     assert list(first) == [
         *("case", "thickness", "title", "state", "exit_code", "notch_end.K_I.max"),
         *("notch_end.K_I.at_1e-06", "notch_end.J.min", "kinetic_energy.last"),
+        "notch_end.status",
     ]
-    assert [float(first[name]) for name in list(first)[5:]] == [4e5, 2e5, 0.0, 2e-6]
+    assert [float(first[name]) for name in list(first)[5:-1]] == [4e5, 2e5, 0.0, 2e-6]
     assert (first["thickness"], first["title"], first["state"]) == ("0.001", "", "done")
     assert (second["title"], second["state"], second["notch_end.J.min"]) == ("b", "missing", "")
+
+
+@pytest.mark.parametrize(("time", "K_I"), [("1.5 us", "300000.0"), ("1 ms", "")])
+def test_a_number_at_a_time_is_that_of_this_time(study, time, K_I):
+    """K_I rises by 2e5 in each us until 2 us: the row nearest to 1.5 us has 2e5 or 4e5."""
+    take = f"collect: [{{column: K_I, take: at, time: {time}}}]"
+    path = study(HEAD + "  - {type: list, cases: [{thickness: 1 mm}]}\n" + take)
+    opened = open_study(path)
+    write_run(opened.folder.run(opened.cases[0].name), K_I=4e5)
+    with collect_study(path, None, None).open(encoding="utf-8", newline="") as file:
+        (row,) = csv.DictReader(file)
+    assert list(row.values())[-2] == K_I
+
+
+@pytest.mark.parametrize(
+    ("statuses", "told"),
+    [
+        (("doubtful: early", "ok", "ok"), "ok"),
+        (("ok", "closed", "ok"), "closed"),
+        (("ok", "closed", "invalid: late"), "invalid: late | closed"),
+    ],
+)
+def test_the_table_says_what_the_rows_said_that_its_numbers_are_of(study, statuses, told):
+    """The largest K_I is that of the last row; at 1.5 us it lies between the second and third."""
+    take = ["{column: K_I, take: max}", "{column: K_I, take: at, time: 1.5 us}"]
+    text = HEAD + "  - {type: list, cases: [{thickness: 1 mm}]}\ncollect: [" + ", ".join(take) + "]"
+    opened = open_study(path := study(text))
+    write_run(opened.folder.run(opened.cases[0].name), statuses=statuses)
+    opened.folder.remember(path)
+    with collect_study(path, None, None).open(encoding="utf-8", newline="") as file:
+        (row,) = csv.DictReader(file)
+    assert row["notch_end.status"] == told
+    page = report_folder(opened.folder.path, None).read_text(encoding="utf-8")
+    assert f"<td>{told}</td>" in page
 
 
 def test_the_page_of_a_sweep_holds_every_case(study):

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from support import build_deck, locate
+from support import advance, build_deck, locate
 
 from cramp_cli.boundary.conditions import add_loads, book_tractions
 from cramp_cli.boundary.traction import traction_power
@@ -119,3 +119,20 @@ def test_forces_next_to_a_crack_go_to_their_own_side():
         if rows.first[node] >= 0:
             assert rows.place[row, 1] / mass[row] < 2.0
     assert scratch.grid.force[:, 0].sum() == pytest.approx(3.0 * 1.0 * 0.3, rel=1e-13)
+
+
+@pytest.mark.parametrize("strain", ["usavg+", "usavg-", "usf", "usl+"])
+def test_a_traction_on_a_face_at_rest_does_no_work(strain):
+    """A beam is pulled at its right; its left face is held, and what pulls there moves nothing."""
+    works = []
+    for left in (0.0, -20.0):
+        loads = [
+            {"type": "traction", "body": "beam", "where": {"x": x}, "traction": [traction, 0.0]}
+            for x, traction in ((4.0, 1e-3), (0.0, left * 1e-3))
+        ]
+        held = [{"where": {"x": 0.0}, "fix": ["x"]}]
+        deck = {"loads": loads, "boundary": held, "solver": {"strain": strain}}
+        model, state, scratch = build_deck(BEAM, **deck)
+        advance(model, state, scratch, 200)
+        works.append(state.books.external[0])
+    assert works[1] == pytest.approx(works[0], rel=1e-9)
