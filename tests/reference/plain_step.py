@@ -1,6 +1,6 @@
 """The time step once more: plain loops over particles and nodes, written from the theory.
 
-It follows algorithm.md 1 to 5 (Nairn 2003; Bardenhagen and Kober 2004; Guo and Nairn 2004) with the
+It follows the papers (Nairn 2003; Bardenhagen and Kober 2004; Guo and Nairn 2004) with the
 answers to ties of cracks/crossing.py, and shares no formula with the package: it is slow, and meant
 to be read. Plane problems, linear or GIMP functions, FLIP, cracks with sharp tips and contact, held
 edges, forces on particles, gravity and damping.
@@ -109,7 +109,7 @@ class Problem:
     reaction: list = field(default_factory=lambda: [0.0, 0.0])
 
 
-# Shape functions along one axis, algorithm.md 2 --------------------------------------------------
+# Shape functions along one axis --------------------------------------------------
 
 
 def S(r, h, l):  # noqa: E741 - the letter of the paper
@@ -136,7 +136,7 @@ def nodes_along(x, half, h, low):
     return range(first, first + (3 if half else 2))
 
 
-# Cracks, algorithm.md 3 --------------------------------------------------------------------------
+# Cracks --------------------------------------------------------------------------
 
 
 def area(a, b, c):
@@ -243,7 +243,7 @@ class Grid:
             row.v, row.a = ([x * over for x in sums] for sums in (row.p, row.f))
 
 
-# Contact, algorithm.md 4 -------------------------------------------------------------------------
+# Contact -------------------------------------------------------------------------
 
 
 def touch(problem, grid, when):
@@ -293,7 +293,7 @@ def touch_pair(problem, crack, a, b, normal, when):
                 row.f[d] += sign * given[d] / dt
 
 
-# Held edges, algorithm.md 1.5 --------------------------------------------------------------------
+# Held edges --------------------------------------------------------------------
 
 
 def held_rows(problem, grid, hold):
@@ -339,7 +339,7 @@ def hold_again(problem, grid):
             problem.reaction[d] += change / problem.dt
 
 
-# Strain and stress, algorithm.md 1.2 -------------------------------------------------------------
+# Strain and stress -------------------------------------------------------------
 
 
 def strain(problem, grid, share):
@@ -386,7 +386,7 @@ def stress_step(problem, q, U):
     q.stretch *= 1.0 + ezz + 0.5 * ezz * ezz
 
 
-# Motion, algorithm.md 1.3 and 5 ------------------------------------------------------------------
+# Motion ------------------------------------------------------------------
 
 
 def move_particles(problem, grid):
@@ -463,7 +463,7 @@ def surface_row(problem, grid, c, side, node, q):
     return grid.rows.get((node, tuple(sorted(between.items()))))
 
 
-# The step, algorithm.md 1.1 ----------------------------------------------------------------------
+# The step ----------------------------------------------------------------------
 
 
 def plain_step(problem):

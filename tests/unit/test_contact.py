@@ -1,4 +1,4 @@
-"""Contact of two rows of a node: what the law gives and takes (algorithm.md 4.2 to 4.4)."""
+"""Contact of two rows of a node: what the law gives and takes (docs/theory/contact.md)."""
 
 import numpy as np
 import pytest
@@ -88,7 +88,7 @@ def test_ignored_sides_pass_through_each_other():
     ("momentum", "gap"), [(PARTING, -1.0), (CLOSING, 1.0), (CLOSING, 0.0), (PARTING, 1.0)]
 )
 def test_nothing_happens_to_sides_that_part_or_are_apart(kind, momentum, gap):
-    """Contact needs an overlap and an approach (algorithm.md 4.3)."""
+    """Contact needs an overlap and an approach."""
     grid, rows, friction = meet(kind, MASS, momentum, mu=0.5, gap=gap)
     assert grid.momentum.tolist() == [list(p) for p in momentum]
     assert rows.touching[0, 0] == OPEN
@@ -170,7 +170,7 @@ def test_friction_is_booked_once_a_step():
 
 @EVERY_LAW
 def test_passes_change_what_they_should(kind):
-    """algorithm.md 4.4: A changes the saved momenta too, B the forces, C the momenta only."""
+    """A changes the saved momenta too, B the forces, C the momenta only."""
     for stage in (FIRST, UPDATE, LAST):
         grid, _, _ = meet(kind, MASS, CLOSING, mu=0.1, stage=stage)
         change = grid.momentum - CLOSING
@@ -181,7 +181,7 @@ def test_passes_change_what_they_should(kind):
 
 @pytest.mark.parametrize(("gap", "touches"), [(0.124, True), (0.126, False), (-0.1, True)])
 def test_in_the_update_the_gap_is_that_at_the_end_of_the_step(gap, touches):
-    """algorithm.md 4.2, exact flight: v = -1, a = -5, way v t + a t^2/2 = -0.125."""
+    """Exact flight: v = -1, a = -5, way v t + a t^2/2 = -0.125."""
     force = np.array([[0.0, 0.0], [0.0, -5.0 * 3.0]])
     after = np.array([[0.0, 0.0], [0.0, -1.0 * 3.0]]) + force * DT
     _, rows, _ = meet(STICK, MASS, after, gap=gap, force=force, stage=UPDATE)
@@ -232,7 +232,7 @@ def met_in_turn(mass, velocity):
 def test_four_rows_of_two_crossing_cracks():
     """Glued twice, rows 0, a, b, ab: pairs 0-a, 0-b, b-ab and a-ab meet once, in this order.
 
-    algorithm.md 4.1; a row across two cracks first meets the one across its second crack alone.
+    A row across two cracks first meets the one across its second crack alone.
     """
     grid, rows = make_grid(1, 2, 3)
     for crossed in ((0, 1, NONE, 0), (1, 1, NONE, 0), (0, 1, 1, 1)):

@@ -1,4 +1,4 @@
-"""Which ways from a particle to a node cross a crack (algorithm.md 3.2, our answers to ties)."""
+"""Which ways from a particle to a node cross a crack (Nairn 2003; ties: docs/theory/cracks.md)."""
 
 from fractions import Fraction
 
@@ -71,7 +71,7 @@ def side(line, particle, node, **more):
     ],
 )
 def test_truth_table(particle, node, wanted):
-    """algorithm.md 3.2; where a point lies on the crack: below it, seen from everywhere."""
+    """Nairn (2003); where a point lies on the crack: below it, seen from everywhere."""
     assert side(STRAIGHT, particle, node) == wanted
 
 
@@ -84,7 +84,7 @@ def test_a_hair_off_the_crack_is_on_it(off):
 
 
 def test_an_edge_end_goes_on_into_free_space():
-    """By four segment lengths (algorithm.md 3.2)."""
+    """By four segment lengths."""
     assert side(STRAIGHT, (1.5, 0.5), (1.5, -0.5)) == NONE
     assert side(STRAIGHT, (1.5, 0.5), (1.5, -0.5), ends=EDGE) == ABOVE
 

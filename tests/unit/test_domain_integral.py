@@ -205,7 +205,7 @@ def test_a_turn_after_loading_does_not_matter(spin):
 
 def test_inertia_is_that_of_the_motion_less_gravity():
     """A body in free fall has no inertia term; one that is shaken adds rho a_i u_i,1 q to J and
-    rho a_i U_i,1 q E'/2 to K (algorithm.md 16).
+    rho a_i U_i,1 q E'/2 to K.
     """
     particles, frame = field(SMALL, 0.0, PLANE_STRAIN)
     rest, _ = measure(particles, frame, PLANE_STRAIN)

@@ -1,4 +1,4 @@
-"""K from J and the opening of a crack (algorithm.md 7)."""
+"""K from J and the opening of a crack (docs/theory/fracture.md)."""
 
 import numpy as np
 import pytest
@@ -27,7 +27,7 @@ def test_round_trip(kappa, K_I, K_II):
     ("J", "normal", "slide"), [(-1.0, 1e-6, 0.0), (0.0, 1e-6, 0.0), (1.0, 0.0, 0.0)]
 )
 def test_nothing_is_known_without_release_or_opening(J, normal, slide):
-    """algorithm.md 7.2: K = 0 where J <= 0 or the crack is closed."""
+    """K = 0 where J <= 0 or the crack is closed."""
     assert K_from_J(J, normal, slide, SHEAR, 2.0) == (0.0, 0.0)
 
 

@@ -247,7 +247,7 @@ def _sums(model, state, scratch):
     ((-1, -1), (9, 9), (0.5**0.5, -(0.5**0.5))),
 ])  # fmt: skip
 def test_normals_point_from_above_to_below(start, end, normal):
-    """From the left of the crack to its right (algorithm.md 3.2)."""
+    """From the left of the crack to its right."""
     _, _, scratch = sorted_out([straight(start, end)])
     normals = scratch.rows.normal[: scratch.rows.count[0], 0]
     np.testing.assert_allclose(

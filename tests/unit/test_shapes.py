@@ -1,4 +1,4 @@
-"""Properties that every shape function has, and the values of each (algorithm.md 2)."""
+"""Properties that every shape function has, and the values of each (docs/theory/step.md)."""
 
 from math import comb, factorial
 

@@ -1,4 +1,4 @@
-"""From the grid to particles: free fall, damping, FMPM and XPIC (algorithm.md 1.3, 1.4)."""
+"""From the grid to particles: free fall, damping, FMPM and XPIC (docs/theory/step.md)."""
 
 from dataclasses import replace
 
@@ -71,7 +71,7 @@ def test_damping_brakes_by_its_share_and_books_what_it_takes(update, damping):
 
 
 def test_formulas():
-    """algorithm.md 1.3: V = 1, u = 3, a = 10, dt = 0.1, damping 2 (grid) and 0.5 (particle).
+    """V = 1, u = 3, a = 10, dt = 0.1, damping 2 (grid) and 0.5 (particle).
 
     vm is the grid velocity at the start of the step for FLIP and XPIC: 3 - 10 * 0.1 = 2.
     """

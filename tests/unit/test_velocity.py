@@ -141,7 +141,7 @@ def sides(model, state, scratch, rows, crack_at):
 @pytest.mark.parametrize("crack_at", [4.0, 3.7, 3.5])
 @pytest.mark.parametrize("struck_side", ["below", "above"])
 def test_a_crack_ends_the_struck_edge(crack_at, struck_side, per_cell):
-    """algorithm.md 1.5: the rows of the far side stay free, those of the struck side are held."""
+    """The rows of the far side stay free, those of the struck side are held."""
     span = [-1.0, crack_at] if struck_side == "below" else [crack_at, 9.0]
     model, state, scratch, rows = struck(crack_at, {"x": 0.0, "y": span}, per_cell)
     above = sides(model, state, scratch, rows, crack_at)

@@ -6,7 +6,7 @@ from support import advance, build_deck
 
 pytestmark = pytest.mark.verification
 
-STEPS = 629  # of NairnMPM's own free-fall test: a fall of 2.0027 mm (algorithm.md 13)
+STEPS = 629  # of NairnMPM's own free-fall test: a fall of 2.0027 mm
 ACCELERATION = (1.5, -10.0)  # m/s^2
 VELOCITY = (2.0, 3.0)  # m/s
 

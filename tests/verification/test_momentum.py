@@ -51,8 +51,8 @@ def measures(particles):
     return Measures(m @ v, angular, float(m @ np.hypot(*v.T)))
 
 
-# update, tips, and the share of its spin that a body may lose: cases.md gives no number, these are
-# the losses measured (in the comments) and a little more
+# update, tips, and the share of its spin that a body may lose. There is no number to aim at: these
+# are the losses measured (in the comments) and a little more
 FLIGHTS = [
     ("flip", "sharp", 0.05),  # 3.6 %; 2.8 % without a crack
     ("flip", "smooth", 0.15),  # 12 %
@@ -71,7 +71,7 @@ def test_free_bodies_keep_their_momentum(update, tips, loss):
     after = measures(state.particles)
     assert touching >= 10  # of 20 looks: the crack did open and close
     assert state.books.friction[0] > 0.0  # and slide
-    # 1e-12 is asked for by cases.md E; measured 5e-15
+    # round-off, with room; measured 5e-15
     assert np.abs(after.linear - before.linear).max() <= 1e-12 * before.size
     # not kept exactly: a velocity of the grid is that of a place near its node
     assert 0.0 <= before.angular - after.angular <= loss * before.angular

@@ -16,7 +16,7 @@ LENGTH, E, RHO = 1.0, 100.0e6, 1000.0  # m, Pa, kg/m^3
 TRANSIT = LENGTH / bar_speed(E, RHO)
 V0 = 0.1  # m/s: a strain of 3e-4, so that large strains do not change the speed
 UPDATES = ["flip", "fmpm(2)", "xpic(2)"]
-PLATEAU = 0.02  # cases.md E, "1D bar impact" and "bar step traction"
+PLATEAU = 0.02  # of the stress behind the front, in impact and under a step of traction
 
 
 def bar(cells, **more):
