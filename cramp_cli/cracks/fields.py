@@ -5,6 +5,7 @@ import numpy as np
 from cramp_cli.cracks.advect import move_cracks
 from cramp_cli.cracks.assign import assign_rows, list_particles_near_cracks
 from cramp_cli.cracks.contact import GLUED, sum_displacement
+from cramp_cli.cracks.followers import follow, list_followers
 from cramp_cli.cracks.meetings import list_meeting_particles, mark_groups
 from cramp_cli.cracks.rows import clear_shared, forget_rows
 from cramp_cli.cracks.segments import list_segments, make_segments
@@ -37,6 +38,10 @@ def find_rows(model, state, scratch) -> None:
         return
     while not _rows_fit(scratch, state, model):
         pass
+    if model.tip_nodes is not None:
+        lattice, solid = model.lattice, (scratch.rows, state.paths, model.groups.of_crack)
+        place = (lattice.width, lattice.lower, model.strides)
+        list_followers(scratch.followers, *solid, *place)
 
 
 def _find_meetings(model, state, scratch) -> None:
@@ -88,6 +93,12 @@ def _look_around_tips(model, state, scratch) -> None:
 def smooth_cracks(model):
     """Return for each crack whether its tips are smooth; a glued crack is no crack."""
     return (model.tip_nodes is not None) & (model.contact.kind != GLUED)
+
+
+def follow_behind_tips(model, scratch, field) -> None:
+    """Let the nodes ahead of smooth tips open as those behind do; field: momentum or force."""
+    if scratch.followers.count[0]:
+        follow(field, scratch.grid.mass, scratch.followers, model.strides)
 
 
 def find_openings(model, state, scratch) -> None:
