@@ -21,6 +21,7 @@ import numpy as np
 
 from cramp_cli.cracks.rows import find_row
 from cramp_cli.cracks.tip_nodes import FAR, along_crack
+from cramp_cli.cracks.tip_shares import inertia_of_jump
 from cramp_cli.numerics.kernel import inlined_kernel, kernel
 
 MOST = 32  # nodes beside a tip that may follow, or lead
@@ -112,7 +113,7 @@ def _find_leads(followers, f, rows, paths, of_crack, node, rx, ry, width, lower,
         i, j = i0 + k % 2, j0 + k // 2
         other = i * strides[0] + j * strides[1]
         w = (1.0 - abs(rx - i)) * (1.0 - abs(ry - j))
-        weight[f, k] = 0.0
+        weight[f, k], lead[f, k] = 0.0, 0
         if w < LIGHT or rows.tip[other] != rows.tip[node]:
             continue
         if rows.tip_side[other] != rows.tip_side[node]:
@@ -120,20 +121,23 @@ def _find_leads(followers, f, rows, paths, of_crack, node, rx, ry, width, lower,
         own, across = sides_beside_tip(rows, of_crack, other)
         ahead = _from_tip(rows, paths, other, width, lower, strides)[2]
         if min(own, across) >= 0 and ahead <= ON_TIP * width:
-            weight[f, k], lead[f, k] = w, _number_of_lead(followers, own, across)
+            weight[f, k] = w
+            lead[f, k] = _number_of_lead(followers, rows, other, own, across)
             total += w
     for k in range(4):
         weight[f, k] /= total if total > 0.0 else 1.0
+        followers.inertia[lead[f, k]] += weight[f, k] * inertia_of_jump(rows, node)
 
 
 @kernel
-def _number_of_lead(followers, own, across):
+def _number_of_lead(followers, rows, node, own, across):
     """Return the number of the lead with these rows; a new one if there is none."""
     row, n = followers.row, followers.count[1]
     for k in range(n):
         if row[k, 0] == own and row[k, 1] == across:
             return k
     row[n, 0], row[n, 1] = own, across
+    followers.inertia[n] = inertia_of_jump(rows, node)
     followers.count[1] += 1
     return n
 
@@ -144,7 +148,6 @@ def follow(field, mass, followers, strides):
     inertia, jump, dim = followers.inertia, followers.jump, len(strides)
     for k in range(followers.count[1]):
         a, b = followers.row[k, 0], followers.row[k, 1]
-        inertia[k] = _reduced(mass, a, b)
         for d in range(dim):
             jump[k, d] = _parting(field, mass, a, b, d)
     for f in range(followers.count[0]):
@@ -168,7 +171,6 @@ def _hand_over(field, mass, followers, f, dim):
     for e in range(4):
         k, w = followers.lead[f, e], followers.weight[f, e]
         if w > 0.0:
-            followers.inertia[k] += w * _reduced(mass, a, b)
             for d in range(dim):
                 followers.jump[k, d] += w * _parting(field, mass, a, b, d)
 
