@@ -9,9 +9,10 @@ a quarter of a cell too long, and comes to rest there some thousand times more s
 passes a cell. So the node has no jump of its own: it follows the nodes a whole number of cells
 behind it (on an oblique crack a mean of those around that place, on its own side).
 
-The constraint is that of a Galerkin method. The jump of what leads takes up the momentum that parts
-the sides of what follows, and its inertia; forces as momenta, so energy is kept and each node keeps
-its momentum.
+The constraint is that of a Galerkin method: the jump of a lead takes up the momentum that parts the
+sides of its followers, and forces as momenta, so energy is kept and each node keeps its momentum.
+The inertia of the jump is what moves with it (`inertia_of_jump`), less than the reduced mass of the
+sides: with that waves would shear the tip too slowly.
 """
 
 from math import ceil, floor
@@ -40,7 +41,7 @@ class Followers(NamedTuple):
     lead: np.ndarray  # (followers, 4) number of a lead
     weight: np.ndarray  # (followers, 4) what it counts, 0 for none
     row: np.ndarray  # (leads, 2) rows of a lead, as of a follower
-    inertia: np.ndarray  # (leads,) of the jump, with that of all followers, kg
+    inertia: np.ndarray  # (leads,) mass that moves with the jump, that of followers included, kg
     jump: np.ndarray  # (leads, dim) momentum that parts the sides, then the jump of the velocity
 
 
@@ -76,18 +77,17 @@ def list_followers(followers, rows, paths, of_crack, width, lower, strides):
     followers.count[:] = 0
     for i in range(rows.count[4]):
         node = rows.tipped[i]
-        if min(sides_beside_tip(rows, of_crack, node)) < 0:
+        own, across = sides_beside_tip(rows, of_crack, node)
+        if min(own, across) < 0:
             continue
         x, y, ahead, ex, ey = _from_tip(rows, paths, node, width, lower, strides)
         back = ceil(ahead / width - ON_TIP)
         if back > 0:
             f = followers.count[0]
             followers.count[0] += 1
-            followers.follower[f, 0], followers.follower[f, 1] = sides_beside_tip(
-                rows, of_crack, node
-            )
-            rx, ry = (x - lower[0]) / width - back * ex, (y - lower[1]) / width - back * ey
-            _find_leads(followers, f, rows, paths, of_crack, node, rx, ry, width, lower, strides)
+            followers.follower[f, 0], followers.follower[f, 1] = own, across
+            place = (x - back * ex * width, y - back * ey * width)
+            _find_leads(followers, f, rows, paths, of_crack, node, place, width, lower, strides)
 
 
 @kernel
@@ -102,12 +102,13 @@ def _from_tip(rows, paths, node, width, lower, strides):
 
 
 @kernel
-def _find_leads(followers, f, rows, paths, of_crack, node, rx, ry, width, lower, strides):
+def _find_leads(followers, f, rows, paths, of_crack, node, place, width, lower, strides):
     """Let follower f follow those of the four nodes around a place that lie behind the tip.
 
-    node: that of the follower; rx, ry: the place behind it, in cells from the corner of the grid
+    node: that of the follower; place: behind it (m)
     """
     weight, lead, total = followers.weight, followers.lead, 0.0
+    rx, ry = (place[0] - lower[0]) / width, (place[1] - lower[1]) / width
     i0, j0 = floor(rx), floor(ry)
     for k in range(4):
         i, j = i0 + k % 2, j0 + k // 2
@@ -145,41 +146,24 @@ def _number_of_lead(followers, rows, node, own, across):
 @kernel
 def follow(field, mass, followers, strides):
     """Give followers the jump of their leads; field: (rows, dim) momentum (kg m/s) or force (N)."""
-    inertia, jump, dim = followers.inertia, followers.jump, len(strides)
-    for k in range(followers.count[1]):
-        a, b = followers.row[k, 0], followers.row[k, 1]
-        for d in range(dim):
-            jump[k, d] = _parting(field, mass, a, b, d)
-    for f in range(followers.count[0]):
-        _hand_over(field, mass, followers, f, dim)
-    for k in range(followers.count[1]):
-        for d in range(dim):
+    row, jump, inertia = followers.row, followers.jump, followers.inertia
+    follower, lead, weight = followers.follower, followers.lead, followers.weight
+    leads, dim = followers.count[1], len(strides)
+    for d in range(dim):
+        for k in range(leads):
+            jump[k, d] = _parting(field, mass, row[k, 0], row[k, 1], d)
+        for f in range(followers.count[0]):
+            parting = _parting(field, mass, follower[f, 0], follower[f, 1], d)
+            for e in range(4):
+                jump[lead[f, e], d] += weight[f, e] * parting
+        for k in range(leads):
             jump[k, d] /= inertia[k] if inertia[k] > 0.0 else 1.0
-            _part(field, mass, followers.row[k, 0], followers.row[k, 1], d, jump[k, d])
-    for f in range(followers.count[0]):
-        for d in range(dim):
+            _part(field, mass, row[k, 0], row[k, 1], d, jump[k, d])
+        for f in range(followers.count[0]):
             led = 0.0
             for e in range(4):
-                led += followers.weight[f, e] * jump[followers.lead[f, e], d]
-            _part(field, mass, followers.follower[f, 0], followers.follower[f, 1], d, led)
-
-
-@inlined_kernel
-def _hand_over(field, mass, followers, f, dim):
-    """Add what parts the sides of follower f, and their inertia, to its leads."""
-    a, b = followers.follower[f, 0], followers.follower[f, 1]
-    for e in range(4):
-        k, w = followers.lead[f, e], followers.weight[f, e]
-        if w > 0.0:
-            for d in range(dim):
-                followers.jump[k, d] += w * _parting(field, mass, a, b, d)
-
-
-@inlined_kernel
-def _reduced(mass, a, b):
-    """Return the reduced mass of two rows (kg)."""
-    both = mass[a] + mass[b]
-    return mass[a] * mass[b] / both if both > 0.0 else 0.0
+                led += weight[f, e] * jump[lead[f, e], d]
+            _part(field, mass, follower[f, 0], follower[f, 1], d, led)
 
 
 @inlined_kernel
@@ -192,6 +176,8 @@ def _parting(field, mass, a, b, d):
 @inlined_kernel
 def _part(field, mass, a, b, d, jump):
     """Let row b move faster than row a by `jump`, their sum as before."""
-    change = _reduced(mass, a, b) * jump - _parting(field, mass, a, b, d)
-    field[a, d] -= change
-    field[b, d] += change
+    both = mass[a] + mass[b]
+    if both > 0.0:
+        change = mass[a] * mass[b] / both * jump - _parting(field, mass, a, b, d)
+        field[a, d] -= change
+        field[b, d] += change
