@@ -7,7 +7,8 @@ it has no slope along the crack, so that nothing shears these particles, and lit
 it. With a jump of its own the node opens some ten times as far as its neighbour behind: the tip is
 a quarter of a cell too long, and comes to rest there some thousand times more slowly than a wave
 passes a cell. So the node has no jump of its own: it follows the nodes a whole number of cells
-behind it (on an oblique crack a mean of those around that place, on its own side).
+behind it (on an oblique crack the mean of those around that place, on its own side, by what moves
+with their jumps).
 
 The constraint is that of a Galerkin method: the jump of a lead takes up the momentum that parts the
 sides of its followers, and forces as momenta, so energy is kept and each node keeps its momentum.
@@ -121,7 +122,8 @@ def _find_leads(followers, f, rows, paths, of_crack, node, place, width, lower, 
             continue
         own, across = sides_beside_tip(rows, of_crack, other)
         ahead = _from_tip(rows, paths, other, width, lower, strides)[2]
-        if min(own, across) >= 0 and ahead <= ON_TIP * width:
+        w *= inertia_of_jump(rows, other)  # a node that hardly sees the other side leads nowhere
+        if w > 0.0 and min(own, across) >= 0 and ahead <= ON_TIP * width:
             weight[f, k] = w
             lead[f, k] = _number_of_lead(followers, rows, other, own, across)
             total += w
