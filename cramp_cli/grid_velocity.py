@@ -10,6 +10,7 @@ import numpy as np
 from cramp_cli.boundary.conditions import hold_increment, reflect_sum
 from cramp_cli.contact.bodies import share_increments
 from cramp_cli.cracks.contact import touch_increment
+from cramp_cli.cracks.fields import follow_behind_tips
 from cramp_cli.transfer.on_grid import divide_by_mass, find_velocity
 from cramp_cli.transfer.sums import smooth
 from cramp_cli.transfer.update import Fmpm, Xpic
@@ -40,6 +41,7 @@ def _add_orders(model, state, scratch, increment) -> None:
         smoothed = np.zeros_like(increment)
         smooth(model, state, scratch, smoothed, increment)
         reflect_sum(model.conditions, scratch, smoothed)
+        follow_behind_tips(model, scratch, smoothed)
         divide_by_mass(smoothed, grid.mass, len(smoothed), model.strides)
         increment -= smoothed
         hold_increment(model.conditions, scratch, increment)

@@ -4,6 +4,7 @@ import numpy as np
 
 from cramp_cli.cracks.cloud import list_origins
 from cramp_cli.cracks.fields import beyond_tips
+from cramp_cli.cracks.followers import make_followers
 from cramp_cli.cracks.segments import make_segments
 from cramp_cli.cracks.view import make_seen
 from cramp_cli.numerics.team import Team
@@ -35,6 +36,7 @@ def make_scratch(model, state, threads: int = 1) -> Scratch:
         reports=list(report),
         per_band=np.zeros(bands),
         seen=(make_seen(), make_seen()),
+        followers=make_followers(2 * state.paths.crack_count, dim),
         origins=list_origins(lattice, state.particles),
     )
     share_particles(state, scratch)

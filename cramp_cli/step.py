@@ -20,7 +20,13 @@ from cramp_cli.boundary.conditions import (
 from cramp_cli.contact.bodies import find_pairs, move_rigid_bodies, touch_bodies
 from cramp_cli.cracks.cohesion import book_pressures, draw_faces
 from cramp_cli.cracks.contact import FIRST, LAST, UPDATE, touch
-from cramp_cli.cracks.fields import find_openings, find_rows, list_cracks, move_paths
+from cramp_cli.cracks.fields import (
+    find_openings,
+    find_rows,
+    follow_behind_tips,
+    list_cracks,
+    move_paths,
+)
 from cramp_cli.cracks.release import resist_opening
 from cramp_cli.cracks.tip_filter import calm_running_tips, leave_to_tips, note_near_tips
 from cramp_cli.grid_velocity import find_strain_velocity, find_update_velocity
@@ -47,6 +53,7 @@ def step(model, state, scratch, watch) -> None:
         sums.sum_mass_and_momentum(model, state, scratch)
         meet_rows(conditions, scratch, model.lattice.width)
         reflect_mass_and_momentum(conditions, scratch, state)
+        follow_behind_tips(model, scratch, grid.momentum)
         grid.saved[:count] = grid.momentum[:count]
         touch_bodies(model, state, scratch, FIRST)
         touch(grid, rows, laws, model.strides, dt, FIRST)
@@ -66,6 +73,7 @@ def step(model, state, scratch, watch) -> None:
         draw_faces(model, state, scratch)
         reflect_forces(conditions, scratch, state)
         absorb_waves(model, scratch, state)
+        follow_behind_tips(model, scratch, grid.force)
 
     with watch("6 equation of motion in every velocity field"):
         hold_forces(conditions, scratch, state, dt)
@@ -95,6 +103,7 @@ def step(model, state, scratch, watch) -> None:
             grid.momentum[:count] = grid.saved[:count]  # of the moved particles
             find_openings(model, state, scratch)
             reflect_sum(conditions, scratch, grid.momentum)
+            follow_behind_tips(model, scratch, grid.momentum)
             touch_bodies(model, state, scratch, LAST)
             touch(grid, rows, laws, model.strides, dt, LAST)
             repeat_images(conditions, scratch, grid.momentum)

@@ -38,10 +38,10 @@ SHAPES = {
     "bspline3": CubicSpline,
     "cpdi": ConvectedDomain,
 }
-RAMP = 1.0  # cells of a crack over which a smooth tip fades
-# Cells ahead of a smooth tip at which the first particles feel it: K of a centre crack with ten
-# cells is right within 0.3 % on average over a cell, for two, three or four particles along one.
-FRONT = 0.35
+RAMP = 0.8  # cells of a crack over which a smooth tip fades
+# Cells ahead of a smooth tip at which the first particles feel it. With both numbers K of an edge
+# crack of ten cells, a/W = 0.5, is right within 0.1 % on average over a cell, and changes least.
+FRONT = 0.42
 ENDS = {"plain": PLAIN, "edge": EDGE, "tip": TIP}
 RIGID = ""  # stands for the material of rigid bodies
 ON_PLANE = 1e-6  # cells

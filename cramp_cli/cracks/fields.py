@@ -5,6 +5,7 @@ import numpy as np
 from cramp_cli.cracks.advect import move_cracks
 from cramp_cli.cracks.assign import assign_rows, list_particles_near_cracks
 from cramp_cli.cracks.contact import GLUED, sum_displacement
+from cramp_cli.cracks.followers import follow, list_followers
 from cramp_cli.cracks.meetings import list_meeting_particles, mark_groups
 from cramp_cli.cracks.rows import clear_shared, forget_rows
 from cramp_cli.cracks.segments import list_segments, make_segments
@@ -36,6 +37,10 @@ def find_rows(model, state, scratch) -> None:
         return
     while not _rows_fit(scratch, state, model):
         pass
+    if model.tip_nodes is not None:
+        lattice, solid = model.lattice, (scratch.rows, state.paths, model.groups.of_crack)
+        place = (lattice.width, lattice.lower, model.strides)
+        list_followers(scratch.followers, *solid, *place)
 
 
 def _find_meetings(model, state, scratch) -> None:
@@ -92,6 +97,12 @@ def smooth_cracks(model) -> np.ndarray:
 def beyond_tips(model) -> np.ndarray:
     """Return how far the tips of each crack are carried on (cracks,), m."""
     return EXTENSION * model.lattice.width * smooth_cracks(model)
+
+
+def follow_behind_tips(model, scratch, field) -> None:
+    """Let the nodes ahead of smooth tips open as those behind do; field: momentum or force."""
+    if scratch.followers.count[0]:
+        follow(field, scratch.grid.mass, scratch.followers, model.strides)
 
 
 def find_openings(model, state, scratch) -> None:

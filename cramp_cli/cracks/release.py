@@ -7,7 +7,7 @@ elements: Malluck and King 1980; here in proportion to the momentum that parts t
 docs/theory/growth.md).
 """
 
-from cramp_cli.cracks.rows import find_row
+from cramp_cli.cracks.followers import sides_beside_tip
 from cramp_cli.cracks.tip_nodes import FAR, along_crack
 from cramp_cli.cracks.tips import USUAL
 from cramp_cli.numerics.kernel import kernel
@@ -27,15 +27,15 @@ def resist_opening(model, state, scratch) -> None:
     for tip in running_tips(growth):
         length, reach = float(growth.length[tip]), float(growth.reach[tip])
         free = min(length / lattice.width, FREE * min(reach / (USUAL * lattice.width), 1.0))
-        group = int(model.groups.of_crack[tip // 2])
-        _resist(grid, scratch.rows, state.paths, tip, group, free, *place, model.dt)
+        solid = (scratch.rows, state.paths, model.groups.of_crack)
+        _resist(grid, *solid, tip, free, *place, model.dt)
 
 
 @kernel
-def _resist(grid, rows, paths, tip, group, free, width, lower, strides, dt):
+def _resist(grid, rows, paths, of_crack, tip, free, width, lower, strides, dt):
     """Let both sides of the nodes within `free` cells behind a tip lose relative momentum.
 
-    group: contact group of the bodies that the crack cuts; others may share its nodes
+    of_crack: contact group of the bodies that a crack cuts; others may share its nodes
     """
     crack = tip // 2
     first, last = paths.start[crack], paths.start[crack + 1] - 1
@@ -45,8 +45,7 @@ def _resist(grid, rows, paths, tip, group, free, width, lower, strides, dt):
         node = rows.tipped[i]
         if rows.tip[node] != tip:
             continue
-        own = find_row(rows, node, group, -1, 0, -1, 0)
-        across = find_row(rows, node, group, crack, -rows.tip_side[node], -1, 0)
+        own, across = sides_beside_tip(rows, of_crack, node)
         if min(own, across) < 0 or mass[own] <= 0.0 or mass[across] <= 0.0:
             continue
         x = lower[0] + node % strides[1] * width

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from cramp_cli.cracks.cloud import started_around
+from cramp_cli.cracks.fields import follow_behind_tips
 from cramp_cli.numerics.kernel import kernel
 from cramp_cli.shapes.shape import offsets, place_of, weights
 from cramp_cli.state.growth import running_tips
@@ -105,6 +106,7 @@ def _round_trip(model, state, scratch, reflect, chosen, field) -> np.ndarray:
         own = state.particles.mass[chosen[lo:hi]]
         _to_rows(sums, stencil, own, chosen[lo:hi], field[lo:hi], b.shape, model.strides)
     reflect(model.conditions, scratch, sums)
+    follow_behind_tips(model, scratch, sums)
     for b, lo, hi in parts:
         _from_rows(out[lo:hi], sums, mass, stencil, chosen[lo:hi], b.shape, model.strides)
     return out

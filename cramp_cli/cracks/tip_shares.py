@@ -25,6 +25,20 @@ def far_share(rows, node):
     return far / (own + far) if rows.tip_split[node] and far > 0.0 else 0.0
 
 
+@inlined_kernel
+def inertia_of_jump(rows, node):
+    """Return the mass that moves with the jump of a node beside a tip (kg).
+
+    A particle moves with q S times the jump and the share of the mass across: the sum of m S times
+    the square of what stands beside S.
+    """
+    own, far = rows.tip_seen[node, 0], rows.tip_seen[node, 1]
+    if own + far <= 0.0:
+        return 0.0
+    share = far / (own + far)
+    return share**2 * rows.tip_cut[node, 0] + (1.0 - share) ** 2 * rows.tip_cut[node, 1]
+
+
 @kernel
 def sum_sides(rows, stencil, paths, particles, of_body, of_crack, shape, strides, width, tip_nodes):
     """Sum what every node beside a tip sees on both sides; mark the nodes that see a cut.
@@ -54,7 +68,9 @@ def sum_sides(rows, stencil, paths, particles, of_body, of_crack, shape, strides
                 side = _side_of(paths, tip, x, y, width)
                 ramp = (tip_nodes.centre, tip_nodes.ramp)
                 cut, _, _ = cut_share(paths, tip, x, y, shape.half, width, *ramp)
-            rows.tip_seen[node, 0 if side == rows.tip_side[node] else 1] += S[k] * mass[p]
+            there = 0 if side == rows.tip_side[node] else 1
+            rows.tip_seen[node, there] += S[k] * mass[p]
+            rows.tip_cut[node, there] += S[k] * mass[p] * cut * cut
             rows.tip_split[node] = rows.tip_split[node] or cut > 0.0
 
 
@@ -64,13 +80,16 @@ def see_image(rows, crack, on, outside, inside):
 
     outside, inside: nodes on both sides of the plane, each the image of the other
     """
-    seen, split = rows.tip_seen, rows.tip_split
+    split = rows.tip_split
     for i in range(len(on)):
-        if rows.tip[on[i]] // 2 == crack:
-            seen[on[i], 0] = seen[on[i], 1] = seen[on[i], 0] + seen[on[i], 1]
-        if rows.tip[inside[i]] // 2 == crack and rows.tip[outside[i]] // 2 == crack:
-            seen[inside[i], 1] = seen[outside[i], 1]
-            seen[outside[i], 0] = seen[inside[i], 0]
+        both = rows.tip[inside[i]] // 2 == crack and rows.tip[outside[i]] // 2 == crack
+        for seen in (rows.tip_seen, rows.tip_cut):
+            if rows.tip[on[i]] // 2 == crack:
+                seen[on[i], 0] = seen[on[i], 1] = seen[on[i], 0] + seen[on[i], 1]
+            if both:
+                seen[inside[i], 1] = seen[outside[i], 1]
+                seen[outside[i], 0] = seen[inside[i], 0]
+        if both:
             split[inside[i]] = split[outside[i]] = split[inside[i]] or split[outside[i]]
 
 

@@ -46,6 +46,7 @@ class Rows(NamedTuple):
     tip_side: np.ndarray  # (nodes,) side of that crack on which the node lies
     tip_segment: np.ndarray  # (nodes,) segment of the crack nearest to the node
     tip_seen: np.ndarray  # (nodes, 2) mass it sees on its own side of that crack, across it; kg
+    tip_cut: np.ndarray  # (nodes, 2) the same times the square of the cut share; kg
     tip_split: np.ndarray  # (nodes,) whether it sees a particle that is cut
     tipped: np.ndarray  # (nodes,) nodes that have a tip
     displacement: np.ndarray  # (rows, dim) mass-weighted displacement at shared nodes, kg m
@@ -77,6 +78,7 @@ def make_grid(node_count: int, dim: int, extra: int) -> tuple[Grid, Rows]:
         tip_side=np.zeros(node_count, dtype=np.int64),
         tip_segment=np.zeros(node_count, dtype=np.int64),
         tip_seen=np.zeros((node_count, 2)),
+        tip_cut=np.zeros((node_count, 2)),
         tip_split=np.zeros(node_count, dtype=np.bool_),
         tipped=np.zeros(node_count, dtype=np.int64),
         displacement=vectors(),

@@ -123,6 +123,7 @@ class Scratch:
     reports: list  # that of each block
     per_band: np.ndarray  # (bands,) sums over the particles of a band
     seen: tuple  # room for what the surfaces of a crack point see, above and below
+    followers: Any  # nodes ahead of tips that open as those behind do
     shared: list = field(default_factory=list)  # for each block: its particles, shared out
     index: np.ndarray | None = None  # (n,) where the particle of each number is
     origins: Any = None  # numbers of the particles by the cells in which they started

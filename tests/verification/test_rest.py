@@ -1,4 +1,4 @@
-"""A cracked plate at rest stays as it is: K does not run away under a constant load."""
+"""A cracked plate at rest stays as it is: K is right wherever the tip lies, and does not creep."""
 
 import numpy as np
 import pytest
@@ -9,7 +9,7 @@ from verification.solutions import EDGE_CRACK
 pytestmark = [pytest.mark.verification, pytest.mark.slow]
 
 SIGMA, WIDTH, A, CELL = 1e6, 0.1, 0.05, 0.005  # Pa, m: inputs/edge_crack.yaml
-AT_REST = 2.5e-3  # s
+AT_REST = 2.0e-3  # s
 
 
 def exact(a):
@@ -18,24 +18,39 @@ def exact(a):
     return SIGMA * np.sqrt(np.pi * a) * np.exp(spline(a / WIDTH))
 
 
-@pytest.mark.parametrize("fifths", [1, 2])
-def test_K_does_not_run_away(fifths):
-    """Ten cells, tip 0.2 and 0.4 cells past a node, where most is left: 2.1 % in 3.5 ms.
+def edge_crack(tip, line, *settings):
+    """Return a = 10 + tip cells, the crack `line` cells above a row of nodes, and samples of K."""
+    a, y = A + tip * CELL, line * CELL
+    points = f"cracks.edge.points=[[0, {y}], [{a}, {y}]]"
+    run = run_input("edge_crack", points, "output.particles=false", *settings)
+    return a, run.tip("end")
 
-    With a row of its own for what is whole beside the tip, K rose by 7 % in that time, from 10 % to
-    18 % above the exact one.
+
+@pytest.mark.parametrize("line", [0.0, 0.4])
+@pytest.mark.parametrize("tip", [0.0, 0.2, 0.4, 0.6, 0.8])
+def test_K_is_right_wherever_the_tip_lies(tip, line):
+    """Measured: -0.70 to +0.74 % over 25 places at ten cells.
+
+    When nodes ahead of the tip had a jump of their own, -3.1 to +1.6 %.
     """
-    a = A + fifths / 5 * CELL
-    settings = ("solver.end_time=6 ms", "fracture.every=0.5 ms", "output.particles=false")
-    rows = run_input("edge_crack", *settings, f"cracks.edge.points=[[0, 0], [{a}, 0]]").tip("end")
-    early = next(row["K_I"] for row in rows if row["time"] >= AT_REST)
-    assert rows[-1]["K_I"] == pytest.approx(early, rel=0.03)
-    assert rows[-1]["K_I"] == pytest.approx(exact(a), rel=0.02)
+    a, found = edge_crack(tip, line)
+    assert found[-1]["K_I"] == pytest.approx(exact(a), rel=0.01)
+    assert found[-1]["status"] == "ok"
+
+
+@pytest.mark.parametrize(("tip", "line"), [(0.4, 0.4), (0.2, 0.0)])
+def test_K_does_not_creep(tip, line):
+    """Where it once did: by 5 % within eight times the end of the deck at the first place.
+
+    Measured from 2 ms on: 1e-4.
+    """
+    _, found = edge_crack(tip, line, "solver.end_time=4 ms", "fracture.every=0.5 ms")
+    late = np.array([row["K_I"] for row in found if row["time"] >= AT_REST])
+    assert np.ptp(late) < 1e-3 * late[-1]
 
 
 @pytest.mark.parametrize("along", [3, 4])
 def test_K_does_not_depend_on_the_number_of_particles(along):
     """2 % at ten cells (case A2), with three and four particles along each."""
-    settings = (f"bodies.plate.particles_per_cell={along}", "output.particles=false")
-    found = run_input("edge_crack", *settings).tip("end")[-1]
-    assert found["K_I"] == pytest.approx(exact(A), rel=0.02)
+    a, found = edge_crack(0.0, 0.0, f"bodies.plate.particles_per_cell={along}")
+    assert found[-1]["K_I"] == pytest.approx(exact(a), rel=0.02)
