@@ -121,8 +121,8 @@ def struck(crack_at, where, per_cell=2, steps=1):
     edge = {"name": "punch", "where": where, "velocity": {"x": 1.0}}
     model, state, scratch = build_deck(PLATE, bodies=[body], cracks=[crack], boundary=[edge])
     advance(model, state, scratch, steps)
-    rows, count = scratch.held[0]
-    return model, state, scratch, rows[:count]
+    grip = scratch.held[0]
+    return model, state, scratch, grip.rows[: grip.count]
 
 
 def sides(model, state, scratch, rows, crack_at):
