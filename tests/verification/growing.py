@@ -32,7 +32,7 @@ This page is generated: `python tests/verification/growing.py > docs/growing.md`
 `inputs/denp_growth.yaml`, with cells of 1 mm and of 0.5 mm. Paths are compared as lines in the
 undeformed plate.
 
-| on the way from the notch | the two paths are apart | K_eq is off its mean over 5 mm: 1 mm | 0.5 mm |
+| way from the notch | the paths are apart | K_eq off its mean over 5 mm: 1 mm | 0.5 mm |
 |---|---|---|---|"""
 ENERGY = """
 Fracture energy $J\\,da$ that is booked, and energy that has been lost (work less strain, kinetic
@@ -80,7 +80,7 @@ def apart(one, other, low, high) -> float:
 
 
 def unsteadiness(run, low, high) -> float:
-    """Return the largest deviation of K_eq from its mean over 5 mm of way, between two distances."""
+    """Return by what share K_eq is off its mean over 5 mm at most, between two distances (m)."""
     rows = np.array([[row[n] for n in ("x", "y", "K_I", "K_II")] for row in run.growth])
     reach = np.hypot(*(rows[:, :2] - NOTCH).T)
     K = np.array([MaxHoopStress(1.0).drive(Load(*pair)) for pair in rows[:, 2:]])
