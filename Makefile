@@ -32,9 +32,10 @@ demo: $(READY)  ## run a double cantilever beam and compare its J and K_I with a
 test: lint  ## lint and the fast tests (layer rule included)
 	$(BIN)/python -m pytest -n $(JOBS) -q -m "not slow and not soak"
 
-verify: $(READY)  ## decks and long tests against theory and papers; writes docs/verification.md, convergence.md
+verify: $(READY)  ## decks and long tests against theory and papers; writes docs/verification.md, convergence.md, growing.md
 	$(BIN)/cramp verify --full --report docs/verification.md
 	$(BIN)/python tests/verification/convergence.py > docs/convergence.md
+	$(BIN)/python tests/verification/growing.py > docs/growing.md
 	$(BIN)/python -m pytest -n $(JOBS) -q -m "(slow or verification) and not soak"
 
 soak: $(READY)  ## kills, full disks and fuzzed decks by the hundred: half an hour

@@ -51,7 +51,7 @@ def step(model, state, scratch, watch) -> None:
 
     with watch("3 mass and momentum to the grid"):
         sums.sum_mass_and_momentum(model, state, scratch)
-        meet_rows(conditions, scratch, model.lattice.width)
+        meet_rows(conditions, scratch, state, model.lattice.width)
         reflect_mass_and_momentum(conditions, scratch, state)
         follow_behind_tips(model, scratch, grid.momentum)
         grid.saved[:count] = grid.momentum[:count]

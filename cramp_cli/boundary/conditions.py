@@ -5,7 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from cramp_cli.boundary.beyond import Beyond, follow_force, follow_increment, follow_momentum
+from cramp_cli.boundary.beyond import follow_force, follow_increment, follow_momentum
+from cramp_cli.boundary.grip import Grip, follow_faces
 from cramp_cli.boundary.symmetry import (
     Mirror,
     double_on,
@@ -17,28 +18,10 @@ from cramp_cli.boundary.symmetry import (
     sum_outside,
 )
 from cramp_cli.boundary.traction import Faces, add_traction, traction_power
-from cramp_cli.boundary.velocity import (
-    Held,
-    find_held_rows,
-    hold_again,
-    hold_force,
-    hold_momentum,
-    hold_zero,
-)
+from cramp_cli.boundary.velocity import hold_again, hold_force, hold_momentum, hold_zero
 from cramp_cli.state.signal import Signal
 from cramp_cli.transfer.on_grid import add_gravity
 from cramp_cli.transfer.particle_force import sum_particle_force
-
-
-@dataclass(frozen=True)
-class Hold:
-    """A prescribed velocity component: value times signal."""
-
-    held: Held
-    value: float  # m/s
-    signal: Signal
-    boundary: int  # number of the boundary that books the reaction
-    beyond: Beyond | None = None  # nodes behind it that have to follow
 
 
 @dataclass(frozen=True)
@@ -82,7 +65,6 @@ class Conditions:
 
     names: tuple  # of boundaries, for reactions
     holds: tuple = ()
-    contested: tuple = ()  # pairs (earlier, later) of holds that want the same rows otherwise
     mirrors: tuple = ()
     forces: tuple = ()
     tractions: tuple = ()
@@ -102,27 +84,17 @@ class Conditions:
         return tuple(total.tolist())
 
 
-def meet_rows(conditions, scratch, width) -> None:
+def meet_rows(conditions, scratch, state, width) -> None:
     """Find which rows every condition acts on in this step."""
     if scratch.held is None:
-        scratch.held = [
-            [np.zeros(3 * len(h.held.node) + 8, dtype=np.int64), 0] for h in conditions.holds
-        ]
+        scratch.held = [Grip(hold) for hold in conditions.holds]
         scratch.free = [np.zeros(len(p.mirror.on), dtype=np.bool_) for p in conditions.mirrors]
         scratch.share = np.ones(len(scratch.rows.first))
-    for hold, entry in zip(conditions.holds, scratch.held, strict=True):
-        held = hold.held
-        entry[1] = find_held_rows(
-            entry[0],
-            scratch.rows,
-            scratch.grid.mass,
-            held.node,
-            held.inside,
-            held.lower,
-            held.upper,
-        )
-    for earlier, later in conditions.contested:
-        _give_way(scratch.held[earlier], scratch.held[later])
+    scratch.contested = follow_faces(scratch.held, scratch.contested, state)
+    for grip in scratch.held:
+        grip.find_rows(scratch.rows, scratch.grid.mass)
+    for earlier, later in scratch.contested:
+        earlier.give_way(later)
     for plane, free in zip(conditions.mirrors, scratch.free, strict=True):
         m, segments = plane.mirror, scratch.segments
         if m.crack >= 0:
@@ -141,14 +113,6 @@ def meet_rows(conditions, scratch, width) -> None:
                 width,
             )
     _share_nodes(conditions, scratch)
-
-
-def _give_way(earlier, later) -> None:
-    """Leave rows that both hold to the later one: two reactions in one row would book no work."""
-    rows, count = earlier
-    kept = rows[:count][~np.isin(rows[:count], later[0][: later[1]])]
-    rows[: len(kept)] = kept
-    earlier[1] = len(kept)
 
 
 def _share_nodes(conditions, scratch) -> None:
@@ -173,9 +137,9 @@ def reflect_mass_and_momentum(conditions, scratch, state) -> None:
         if scratch.meeting is not None:  # the area of a joint is that of body and image
             reflect_even(m, free, rows, scratch.meeting.clouds.volume.reshape(-1, 1))
         _reflect(m, free, rows, grid.momentum, add=True)
-    for hold, held in zip(conditions.holds, scratch.held, strict=True):
-        if hold.beyond is not None:
-            _hold_momentum(hold, held, scratch, state)
+    for grip in scratch.held:
+        if grip.beyond is not None:
+            _hold_momentum(grip, scratch, state)
 
 
 def reflect_sum(conditions, scratch, field) -> None:
@@ -215,38 +179,37 @@ def _reflect(m: Mirror, free, rows, field, *, add: bool) -> float:
 
 def hold_momenta(conditions, scratch, state) -> None:
     """Impose the prescribed velocities on the momenta."""
-    for hold, held in zip(conditions.holds, scratch.held, strict=True):
-        _hold_momentum(hold, held, scratch, state)
+    for grip in scratch.held:
+        _hold_momentum(grip, scratch, state)
 
 
-def _hold_momentum(hold, held, scratch, state) -> None:
-    grid, (rows, count) = scratch.grid, held
-    speed = hold.value * hold.signal.speed(state)
-    hold_momentum(grid.momentum, grid.mass, rows, count, hold.held.axis, speed)
-    if hold.beyond is not None:
-        follow_momentum(grid.momentum, scratch.rows, grid.mass, hold.beyond, speed)
+def _hold_momentum(grip, scratch, state) -> None:
+    grid, speed = scratch.grid, grip.speed(state)
+    hold_momentum(grid.momentum, grid.mass, grip.rows, grip.count, grip.held.axis, speed)
+    if grip.beyond is not None:
+        follow_momentum(grid.momentum, scratch.rows, grid.mass, grip.beyond, speed)
 
 
 def hold_forces(conditions, scratch, state, dt) -> None:
     """Impose the prescribed velocities on the forces; book reactions and work."""
-    for hold, (rows, count) in zip(conditions.holds, scratch.held, strict=True):
-        speed = hold.value * hold.signal.speed(state)
-        where = (scratch.grid, scratch.rows, scratch.share, rows, count)
-        reaction, work = hold_force(*where, hold.held.axis, speed, dt)
-        if hold.beyond is not None:
-            more = follow_force(*where[:3], hold.beyond, speed, dt)
+    for grip in scratch.held:
+        axis, speed = grip.held.axis, grip.speed(state)
+        where = (scratch.grid, scratch.rows, scratch.share)
+        reaction, work = hold_force(*where, grip.rows, grip.count, axis, speed, dt)
+        if grip.beyond is not None:
+            more = follow_force(*where, grip.beyond, speed, dt)
             reaction, work = reaction + more, work + more * speed * dt
-        state.reactions[hold.boundary, hold.held.axis] += reaction
+        state.reactions[grip.hold.boundary, axis] += reaction
         state.books.external[0] += work
 
 
 def hold_after_contact(conditions, scratch, state, dt) -> None:
     """Impose the velocities once more, on momenta and forces that contact has changed."""
-    for hold, (rows, count) in zip(conditions.holds, scratch.held, strict=True):
-        speed = hold.value * hold.signal.speed(state)
-        where = (scratch.grid, scratch.rows, scratch.share, rows, count)
-        reaction = hold_again(*where, hold.held.axis, speed, dt)
-        state.reactions[hold.boundary, hold.held.axis] += reaction
+    for grip in scratch.held:
+        axis, speed = grip.held.axis, grip.speed(state)
+        where = (scratch.grid, scratch.rows, scratch.share, grip.rows, grip.count)
+        reaction = hold_again(*where, axis, speed, dt)
+        state.reactions[grip.hold.boundary, axis] += reaction
         state.books.external[0] += reaction * speed * dt
 
 
@@ -264,10 +227,10 @@ def book_tractions(model, scratch, state) -> None:
 
 def hold_increment(conditions, scratch, field) -> None:
     """Keep held components out of higher orders of the grid velocity."""
-    for hold, (rows, count) in zip(conditions.holds, scratch.held, strict=True):
-        hold_zero(field, rows, count, hold.held.axis)
-        if hold.beyond is not None:
-            follow_increment(field, scratch.rows, scratch.grid.mass, hold.beyond)
+    for grip in scratch.held:
+        hold_zero(field, grip.rows, grip.count, grip.held.axis)
+        if grip.beyond is not None:
+            follow_increment(field, scratch.rows, scratch.grid.mass, grip.beyond)
 
 
 def add_loads(model, scratch, state) -> None:

@@ -7,11 +7,11 @@ from cramp_cli.boundary.beyond import Beyond
 from cramp_cli.boundary.conditions import (
     Conditions,
     Gravity,
-    Hold,
     MirrorPlane,
     ParticleForce,
     Traction,
 )
+from cramp_cli.boundary.grip import Hold, Travel
 from cramp_cli.boundary.symmetry import Mirror
 from cramp_cli.boundary.velocity import Held
 from cramp_cli.build.faces import Surface, impedances, span
@@ -48,7 +48,6 @@ def build_conditions(deck, events, *solid) -> tuple[Conditions, tuple]:
     conditions = Conditions(
         names=tuple(builder.names),
         holds=tuple(builder.holds),
-        contested=_contested(builder.holds),
         mirrors=tuple(builder.mirrors),
         forces=tuple(builder.forces),
         tractions=tuple(builder.tractions),
@@ -56,18 +55,6 @@ def build_conditions(deck, events, *solid) -> tuple[Conditions, tuple]:
         gravity=tuple(builder.gravity),
     )
     return conditions, tuple(builder.obstacles)
-
-
-def _contested(holds) -> tuple:
-    """Return the pairs of holds that give a node different velocities: the later one counts."""
-    return tuple(
-        (n, n + 1 + m)
-        for n, one in enumerate(holds)
-        for m, other in enumerate(holds[n + 1 :])
-        if one.held.axis == other.held.axis
-        and (one.value, one.signal) != (other.value, other.signal)
-        and len(np.intersect1d(one.held.node, other.held.node))
-    )
 
 
 class _Builder:
@@ -111,11 +98,27 @@ class _Builder:
         free = np.array([d in planes for d in range(2)])
         region = (np.where(free, -np.inf, lower), np.where(free, np.inf, upper))
         signal = self.events.signal(boundary, f"boundary {self.names[number]}")
+        travel = self._travel(boundary)
         for axis, speed in boundary.components:
             held = Held(node, inside.astype(np.int64), axis, *region)
             beyond = self._beyond(where, node[inside], axis)
-            self.holds.append(Hold(held, float(speed), signal, number, beyond))
+            self.holds.append(Hold(held, float(speed), signal, number, beyond, travel))
         self._spoil(self.nodes[node[inside]], "a held boundary")
+
+    def _travel(self, boundary) -> Travel | None:
+        """Return how a plane moves along its normal, or None if it stays where it is."""
+        planes, lattice = boundary.where.planes, self.lattice
+        normal = planes[0][0]
+        speed = dict(boundary.components).get(normal, 0.0)
+        if len(planes) != 1 or speed == 0.0:
+            return None
+        line, outside = self._line(*planes[0]), -self._body_side(*planes[0])
+        after = lattice.nodes[normal] - 1 - line
+        return Travel(speed, lattice.width, lattice.strides[normal], line, after, outside)
+
+    def _line(self, axis, at) -> int:
+        """Return the number of the line of nodes on a plane."""
+        return round((at - self.lattice.lower[axis]) / self.lattice.width)
 
     def _beyond(self, where, on, component) -> Beyond | None:
         """Return the nodes beyond a held plane that particles of the body see, or None.
@@ -126,7 +129,7 @@ class _Builder:
             return None
         axis, at = where.planes[0]
         lattice, side = self.lattice, self._body_side(axis, at)
-        line = round((at - lattice.lower[axis]) / lattice.width)
+        line = self._line(axis, at)
         step = side * lattice.strides[axis]
         inner = side and 1 <= line < lattice.cells[axis]
         return Beyond(component, on - step, on + step) if inner else None
@@ -138,8 +141,7 @@ class _Builder:
             message = "must not pass through a body: the other half is the body's image"
             self.wrong(("boundary", number, "where"), message)
             return
-        line = round((at - lattice.lower[axis]) / lattice.width)
-        if not 1 <= line < lattice.cells[axis]:
+        if not 1 <= self._line(axis, at) < lattice.cells[axis]:
             message = (
                 "needs a row of cells on either side of a symmetry plane; make the grid larger"
             )

@@ -133,10 +133,29 @@ def _parent_load(model, state, scratch, tip, site, kink):
                 K_I, K_II = 0.0, K_II - rubbed_off(model, corner, tip.crack, inner, radius)
             (ax, ay), (bx, by) = before, growth.heading[k]
             phi = min(max(atan2(ax * by - ay * bx, ax * bx + ay * by), -LARGEST), LARGEST)
-            k_I, k_II = kinked(K_I, K_II, phi)
-            return (k_I**2 + k_II**2) / site.hooke.stiffness, k_I, k_II, radius
+            return (*kink_load(state, k, site, *kinked(K_I, K_II, phi)), radius)
         radius *= 0.9
     return None
+
+
+def kink_load(state, k, site, k_I, k_II):
+    """Return J, K_I, K_II of a short kink, from those it would have at rest.
+
+    One that runs gets the share g(v) = 1 - v/c_R of the energy (Freund 1990, eq. 7.4.5). The speed
+    is that of the last step and hangs on the load: taking the load half from the step before lets
+    both settle within a few steps; taken at once they would swing.
+    """
+    speed, J = float(state.growth.speed[k]), (k_I**2 + k_II**2) / site.hooke.stiffness
+    if speed == 0.0:
+        return J, k_I, k_II
+    J *= max(1.0 - speed / rayleigh_speed(*_waves(site)), 0.0)
+    new = np.array([J, *sized(J, k_I, k_II, speed, site)])
+    return (0.5 * (new + state.growth.load[k])).tolist()
+
+
+def _waves(site) -> tuple[float, float]:
+    """Return the speeds of waves at a tip (m/s), dilational and shear."""
+    return wave_speeds(site.hooke.shear, site.hooke.kappa, site.block.density)
 
 
 def sized(J, K_I, K_II, speed, site) -> tuple[float, float]:
@@ -145,7 +164,7 @@ def sized(J, K_I, K_II, speed, site) -> tuple[float, float]:
     J = (A_I K_I^2 + A_II K_II^2)/(2 mu) (Freund 1990, eq. 5.3.10). The interaction integral knows
     the field of a tip at rest only, and sees the tractions behind a running one (release.py).
     """
-    fast, slow = wave_speeds(site.hooke.shear, site.hooke.kappa, site.block.density)
+    fast, slow = _waves(site)
     A_I, A_II = release_factors(min(speed, ALMOST * rayleigh_speed(fast, slow)), fast, slow)
     found = (A_I * K_I**2 + A_II * K_II**2) / (2.0 * site.hooke.shear)
     size = sqrt(max(J, 0.0) / found) if found > 0.0 else 0.0

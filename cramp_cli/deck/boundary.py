@@ -33,7 +33,9 @@ class BoundarySection(Section):
     fix: tuple[Literal["x", "y"], ...] | None = Field(
         None, min_length=1, description="directions in which nothing moves"
     )
-    velocity: VelocityOnPlane | None = Field(None, description="prescribed velocity")
+    velocity: VelocityOnPlane | None = Field(
+        None, description="prescribed velocity; the plane goes with the face that it moves"
+    )
     symmetry: Flag | None = Field(
         None, description="mirror plane: nothing moves through it, both sides slide along it"
     )

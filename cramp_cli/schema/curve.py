@@ -1,8 +1,12 @@
-"""Functions of time as data: what a load or a prescribed velocity is multiplied by."""
+"""Functions of time as data: what a load or a prescribed velocity is multiplied by.
+
+Each kind answers with its value at a time, and with its integral from time 0 on: how far a
+prescribed velocity has gone.
+"""
 
 from bisect import bisect_right
 from collections.abc import Iterator
-from math import pi, radians, sin
+from math import cos, pi, radians, sin
 from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field
@@ -20,6 +24,10 @@ class Constant(Section):
         """Return the factor at time t (s)."""
         return 1.0
 
+    def integral(self, t: float) -> float:
+        """Return the integral of the factor from time 0 to t >= 0 (s)."""
+        return t
+
 
 class Step(Section):
     """Full from time 0, the same as `constant`."""
@@ -29,6 +37,10 @@ class Step(Section):
     def value(self, t: float) -> float:
         """Return the factor at time t (s)."""
         return 1.0
+
+    def integral(self, t: float) -> float:
+        """Return the integral of the factor from time 0 to t >= 0 (s)."""
+        return t
 
 
 class Ramp(Section):
@@ -46,6 +58,14 @@ class Ramp(Section):
     def value(self, t: float) -> float:
         """Return the factor at time t (s)."""
         return min(max((t - self.start) / (self.until - self.start), 0.0), 1.0)
+
+    def integral(self, t: float) -> float:
+        """Return the integral of the factor from time 0 to t >= 0 (s)."""
+        return self._area(t) - self._area(0.0)
+
+    def _area(self, t: float) -> float:
+        rising = min(max(t - self.start, 0.0), self.until - self.start)
+        return 0.5 * rising**2 / (self.until - self.start) + max(t - self.until, 0.0)
 
 
 class Table(Section):
@@ -76,6 +96,14 @@ class Table(Section):
         v0, v1 = self.value_at[after - 1], self.value_at[after]
         return v0 + (v1 - v0) * (t - t0) / (t1 - t0)
 
+    def integral(self, t: float) -> float:
+        """Return the integral of the factor from time 0 to t >= 0 (s)."""
+        inner = [time for time in self.time if 0.0 < time < t]
+        times = [0.0, *inner, t]
+        values = [self.value(time) for time in times]
+        pieces = zip(times, times[1:], values, values[1:], strict=False)
+        return sum(0.5 * (v0 + v1) * (t1 - t0) for t0, t1, v0, v1 in pieces)
+
 
 class Sine(Section):
     """0 before `start`, then sin(2 pi frequency (t - start) + phase), for a number of cycles."""
@@ -95,6 +123,16 @@ class Sine(Section):
             return 0.0
         return sin(2.0 * pi * turns + radians(self.phase))
 
+    def integral(self, t: float) -> float:
+        """Return the integral of the factor from time 0 to t >= 0 (s)."""
+        return self._area(t) - self._area(0.0)
+
+    def _area(self, t: float) -> float:
+        turns = max(self.frequency * (t - self.start), 0.0)
+        turns = turns if self.cycles is None else min(turns, self.cycles)
+        phase = radians(self.phase)
+        return (cos(phase) - cos(2.0 * pi * turns + phase)) / (2.0 * pi * self.frequency)
+
 
 class Pulse(Section):
     """0, except for one pulse of height 1."""
@@ -112,6 +150,19 @@ class Pulse(Section):
         if self.shape == "half_sine":
             return sin(pi * share)
         return 1.0 if self.shape == "square" else 1.0 - abs(2.0 * share - 1.0)
+
+    def integral(self, t: float) -> float:
+        """Return the integral of the factor from time 0 to t >= 0 (s)."""
+        return self._area(t) - self._area(0.0)
+
+    def _area(self, t: float) -> float:
+        share = min(max((t - self.start) / self.duration, 0.0), 1.0)
+        if self.shape == "half_sine":
+            return self.duration * (1.0 - cos(pi * share)) / pi
+        if self.shape == "square":
+            return self.duration * share
+        half = 1.0 - share
+        return self.duration * (share**2 if share < 0.5 else 0.5 - half**2)
 
 
 KINDS = {

@@ -127,7 +127,8 @@ class Scratch:
     shared: list = field(default_factory=list)  # for each block: its particles, shared out
     index: np.ndarray | None = None  # (n,) where the particle of each number is
     origins: Any = None  # numbers of the particles by the cells in which they started
-    held: list | None = None  # rows held by each velocity condition, and their number
+    held: list | None = None  # where each prescribed velocity acts: boundary/grip.py
+    contested: list | None = None  # pairs of them that want the same rows otherwise
     remarks: list = field(default_factory=list)  # what a user should be told of this step
     free: list | None = None  # nodes of each symmetry plane that lie on its crack
     meeting: Any = None  # contact between bodies

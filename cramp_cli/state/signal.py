@@ -29,7 +29,7 @@ class Clock(NamedTuple):
 class Signal:
     """A curve over time, and what an event makes of it."""
 
-    curve: Any  # .value(t)
+    curve: Any  # .value(t), .integral(t)
     event: int = NONE  # number of the event after which the clock goes at another pace
     pace: float = 1.0  # 0: held, -1: reversed
 
@@ -50,3 +50,7 @@ class Signal:
         """Return what a prescribed velocity is multiplied by."""
         time, pace = self.clock(state)
         return pace * self.curve.value(time) if pace else 0.0
+
+    def distance(self, state) -> float:
+        """Return how far a prescribed velocity of 1 has gone: where the clock was last (s)."""
+        return self.curve.integral(self.clock(state).time)

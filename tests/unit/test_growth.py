@@ -1,12 +1,16 @@
 """Parts of growth: points are added, ends move, speeds follow laws, tips meet things."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from support import build_deck
 
 from cramp_cli.cracks.cloud import cloud_around
+from cramp_cli.cracks.domain_integral import Hooke
 from cramp_cli.cracks.extend import add_point, end_point, make_room, move_end
 from cramp_cli.cracks.meeting import first_met, has_left_body, stay_on_grid
+from cramp_cli.cracks.rayleigh import rayleigh_speed, release_factors, wave_speeds
 from cramp_cli.cracks.segments import make_segments
 from cramp_cli.cracks.speed import (
     ALMOST,
@@ -16,6 +20,7 @@ from cramp_cli.cracks.speed import (
     RisingToughness,
     ToughnessTable,
 )
+from cramp_cli.cracks.tip_load import kink_load
 from cramp_cli.cracks.tips import tips_of
 from cramp_cli.state.failure import NumericalFailure
 from cramp_cli.state.paths import TIP, make_paths
@@ -146,3 +151,38 @@ def test_border_of_the_grid():
     model, state, tip = flat_tip((21.5, 5.0))
     with pytest.raises(NumericalFailure, match="crack flat has grown to the border of the grid"):
         stay_on_grid(model, state, tip)
+
+
+STEEL = Hooke(shear=1.0, kappa=1.8, plane_nu=0.3, stiffness=2.0 / 0.7)
+WAVES = wave_speeds(1.0, 1.8, 1.0)
+
+
+def kink_at(speed, load=(0.0, 0.0, 0.0)):
+    """Return site and state of a kink, as far as its load asks for them."""
+    growth = SimpleNamespace(speed=np.array([speed]), load=np.array([load]))
+    site = SimpleNamespace(hooke=STEEL, block=SimpleNamespace(density=1.0))
+    return site, SimpleNamespace(growth=growth)
+
+
+def test_a_short_kink_at_rest_has_the_load_that_statics_gives_it():
+    site, state = kink_at(0.0, (9.0, 9.0, 9.0))
+    assert kink_load(state, 0, site, 3.0, 4.0) == pytest.approx((25.0 * 0.35, 3.0, 4.0))
+
+
+@pytest.mark.parametrize("excess", [1.05, 1.3, 2.0, 4.0])
+def test_speed_and_load_of_a_short_kink_settle(excess):
+    """G(v) = (1 - v/c_R) G(0), with K that belongs to it (Freund 1990, eq. 5.3.10, 7.4.5)."""
+    site, state = kink_at(0.0)
+    growth, law, rayleigh = state.growth, RisingToughness(), rayleigh_speed(*WAVES)
+    speeds = []
+    for _ in range(40):
+        growth.load[0] = kink_load(state, 0, site, excess, 0.0)
+        growth.speed[0] = law.speed(Pull(growth.load[0, 1], 1.0, growth.speed[0], rayleigh, 1, 1))
+        speeds.append(float(growth.speed[0]))
+    found, K_I, K_II = growth.load[0].tolist()
+    speed = speeds[-1]
+    assert speeds[-5:] == pytest.approx([speed] * 5, rel=1e-6)
+    assert 0.0 < speed < (1.0 - excess**-2) * rayleigh  # what K of a kink at rest would give
+    assert found == pytest.approx((1.0 - speed / rayleigh) * excess**2 * 0.35, rel=1e-5)
+    assert found == pytest.approx(release_factors(speed, *WAVES)[0] * K_I**2 / 2.0, rel=1e-5)
+    assert K_II == 0.0

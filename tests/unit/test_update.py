@@ -101,7 +101,7 @@ def test_orders_are_the_series_of_what_a_round_trip_loses(kind, order):
     p.velocity[:] = chance.normal(size=p.velocity.shape)
     locate(model, state, scratch)
     sum_mass_and_momentum(model, state, scratch)
-    meet_rows(model.conditions, scratch, model.lattice.width)
+    meet_rows(model.conditions, scratch, state, model.lattice.width)
     grid, S = scratch.grid, _dense(model, scratch)
     grid.force[:] = grid.mass[:, None] * chance.normal(size=grid.force.shape)
     find_acceleration(grid, len(grid.mass), model.strides)

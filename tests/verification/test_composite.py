@@ -5,6 +5,7 @@ import pytest
 import yaml
 from runs import INPUTS, Rows
 from support import read
+from verification.growing import away
 
 from cramp_cli.build import build
 from cramp_cli.simulation import simulate
@@ -81,13 +82,6 @@ def test_the_balance_holds_while_it_grows(plain):
     assert max(abs(row["energy_error"]) for row in plain[2] if row["time"] < end) < 0.03
 
 
-def distance(point, line):
-    """Return how far a point is from a polyline (m)."""
-    a, edge = line[:-1] - point, np.diff(line, axis=0)
-    share = np.clip(-np.sum(a * edge, axis=1) / np.sum(edge * edge, axis=1), 0.0, 1.0)
-    return np.hypot(*(a + share[:, None] * edge).T).min()
-
-
 def coarse(sign):
     """The same with larger cells; the notch in the middle of one, where a mirror finds it too."""
     notch = composite(sign)["cracks"][0]
@@ -100,4 +94,4 @@ def test_the_mirrored_specimen_has_the_mirrored_crack():
     (path, _, _), (other, _, _) = coarse(1), coarse(-1)
     assert path[-1, 0] > -1e-3
     mirrored = path[path[:, 0] < other[-1, 0]] * [1, -1]
-    assert max(distance(point, other) for point in mirrored) < 5e-6
+    assert max(away(point, other) for point in mirrored) < 5e-6

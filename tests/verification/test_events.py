@@ -64,17 +64,18 @@ class State:
         self.time, self.events = time, np.array([event])
 
 
-@pytest.mark.parametrize(("pace", "load", "speed"), [
-    (0.0, [0.25, 0.5, 0.5, 0.5], [0.25, 0.5, 0.0, 0.0]),
-    (-1.0, [0.25, 0.5, 0.25, 0.0], [0.25, 0.5, -0.25, 0.0]),
+@pytest.mark.parametrize(("pace", "load", "speed", "gone"), [
+    (0.0, [0.25, 0.5, 0.5, 0.5], [0.25, 0.5, 0.0, 0.0], [0.125, 0.5, 0.5, 0.5]),
+    (-1.0, [0.25, 0.5, 0.25, 0.0], [0.25, 0.5, -0.25, 0.0], [0.125, 0.5, 0.125, 0.0]),
 ])  # fmt: skip
-def test_a_clock_stands_still_or_runs_back(pace, load, speed):
+def test_a_clock_stands_still_or_runs_back(pace, load, speed, gone):
     """A ramp over 4 s; the event comes at 2 s."""
     signal = Signal(Ramp(until=4.0), 0, pace)
     before, after = np.inf, 2.0
     states = [State(1.0, before), State(2.0, before), State(3.0, after), State(4.5, after)]
     assert [signal.load(one) for one in states] == load
     assert [signal.speed(one) for one in states] == speed
+    assert [signal.distance(one) for one in states] == gone
 
 
 @pytest.mark.parametrize("key", ["hold_when", "reverse_when"])
