@@ -12,8 +12,8 @@ with their jumps).
 
 The constraint is that of a Galerkin method: the jump of a lead takes up the momentum that parts the
 sides of its followers, and forces as momenta, so energy is kept and each node keeps its momentum.
-The inertia of the jump is what moves with it (`inertia_of_jump`), less than the reduced mass of the
-sides: with that waves would shear the tip too slowly.
+The inertia of a lead is the reduced mass of its sides; a follower adds only what moves with its jump
+(`inertia_of_jump`): with all of its mass waves would open the tip too slowly.
 """
 
 from math import ceil, floor
@@ -140,7 +140,8 @@ def _number_of_lead(followers, rows, node, own, across):
         if row[k, 0] == own and row[k, 1] == across:
             return k
     row[n, 0], row[n, 1] = own, across
-    followers.inertia[n] = inertia_of_jump(rows, node)
+    near, far = rows.tip_seen[node, 0], rows.tip_seen[node, 1]
+    followers.inertia[n] = near * far / (near + far)
     followers.count[1] += 1
     return n
 

@@ -429,7 +429,10 @@ def test_two_runs_in_one_folder(here):
 
 
 def test_a_sweep_runs_from_end_to_end(here):
-    """Two cases, of which one ends early: its exit code is in the table, the other has a K_I."""
+    """Two cases, of which one ends early: its exit code is in the table, the other has a K_I.
+
+    And the status of the tip that it is of.
+    """
     study = "cramp_sweep: 1\ndeck: plate.yaml\nset: {solver.energy_error.warn: 1e-9}\nvary:\n"
     cases = "  - {type: grid, over: {solver.energy_error.stop: [0.1, 1e-9]}}\n"
     (here / "limits.sweep.yaml").write_text(study + cases + "collect: [{column: K_I}]\n")
@@ -442,4 +445,4 @@ def test_a_sweep_runs_from_end_to_end(here):
     _, good, bad = (here / table).read_text().splitlines()
     assert good.split(",")[1:4] == ["0.1", "done", "0"]
     assert float(good.split(",")[4]) > 0.0
-    assert bad.split(",")[1:] == ["1e-09", "failed", "6", ""]
+    assert bad.split(",")[1:] == ["1e-09", "failed", "6", "", ""]
