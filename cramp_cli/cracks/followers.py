@@ -12,8 +12,8 @@ with their jumps).
 
 The constraint is that of a Galerkin method: the jump of a lead takes up the momentum that parts the
 sides of its followers, and forces as momenta, so energy is kept and each node keeps its momentum.
-The inertia of a lead is the reduced mass of its sides; a follower adds only what moves with its jump
-(`inertia_of_jump`): with all of its mass waves would open the tip too slowly.
+The inertia of a lead is the reduced mass of its sides; a follower adds only what moves with its
+jump (`inertia_of_jump`): with all of its mass waves would open the tip too slowly.
 """
 
 from math import ceil, floor
