@@ -38,9 +38,9 @@ def find_rows(model, state, scratch) -> None:
     while not _rows_fit(scratch, state, model):
         pass
     if model.tip_nodes is not None:
-        lattice, solid = model.lattice, (scratch.rows, state.paths, model.groups.of_crack)
+        lattice, cracks = model.lattice, (state.paths, state.growth.running, model.groups.of_crack)
         place = (lattice.width, lattice.lower, model.strides)
-        list_followers(scratch.followers, *solid, *place)
+        list_followers(scratch.followers, scratch.rows, *cracks, *place)
 
 
 def _find_meetings(model, state, scratch) -> None:

@@ -10,6 +10,9 @@ passes a cell. So the node has no jump of its own: it follows the nodes a whole 
 behind it (on an oblique crack the mean of those around that place, on its own side, by what moves
 with their jumps).
 
+A tip that runs leads nobody: closing tractions keep its nodes from opening far (release.py), and
+each node that it passes would lose what parts its jump from that of the others.
+
 The constraint is that of a Galerkin method: the jump of a lead takes up the momentum that parts the
 sides of its followers, and forces as momenta, so energy is kept and each node keeps its momentum.
 The inertia of a lead is the reduced mass of its sides; a follower adds only what moves with its
@@ -73,13 +76,16 @@ def sides_beside_tip(rows, of_crack, node):
 
 
 @kernel
-def list_followers(followers, rows, paths, of_crack, width, lower, strides):
-    """List the nodes ahead of tips that see both sides, and the nodes behind which they follow."""
+def list_followers(followers, rows, paths, running, of_crack, width, lower, strides):
+    """List the nodes ahead of tips that see both sides, and the nodes behind which they follow.
+
+    running: (ends,) of Growth
+    """
     followers.count[:] = 0
     for i in range(rows.count[4]):
         node = rows.tipped[i]
         own, across = sides_beside_tip(rows, of_crack, node)
-        if min(own, across) < 0:
+        if min(own, across) < 0 or running[rows.tip[node]]:
             continue
         x, y, ahead, ex, ey = _from_tip(rows, paths, node, width, lower, strides)
         back = ceil(ahead / width - ON_TIP)

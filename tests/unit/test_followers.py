@@ -98,3 +98,10 @@ def test_work_is_the_same_from_both_sides(plate):
         return np.divide(field, mass, out=np.zeros_like(field), where=mass > 0.0)
 
     assert np.sum(one * velocity(other)) == pytest.approx(np.sum(other * velocity(one)), rel=1e-12)
+
+
+def test_a_tip_that_runs_leads_nobody(plate):
+    model, state, scratch = plate
+    state.growth.running[:] = 1
+    locate(model, state, scratch)
+    assert not scratch.followers.count.any()

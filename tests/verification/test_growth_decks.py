@@ -53,12 +53,18 @@ def test_K_of_the_running_tip_is_steady(plate):
     assert unsteadiness(plate, 5e-3, 70e-3) < 0.1
 
 
+def work_until(time, run):
+    """Return what the impact has done until a time, before the plate parts (J)."""
+    times, works = ([row[name] for row in run.history] for name in ("time", "external_work"))
+    return np.interp(time, times, works)
+
+
 def test_two_grids_give_one_path():
     """C1: within 1 mm over 75 mm of way; the last millimetres are those of tips near an edge."""
     one, half = (run_input("denp_growth", f"grid.cell={cell} mm") for cell in (1.0, 0.5))
     assert apart(one, half, 0.0, 75e-3) < 1.0e-3
-    works = [run.history[-1]["external_work"] for run in (one, half)]
-    assert works[0] == pytest.approx(works[1], rel=0.02)
+    works = [work_until(60e-6, run) for run in (one, half)]
+    assert works[0] == pytest.approx(works[1], rel=0.01)
 
 
 @pytest.mark.parametrize("piece", ["0.5 mm", "1 mm"])

@@ -64,7 +64,7 @@ def steady(share):
 def test_a_prescribed_speed(share):
     """C4: J within 5 %, and K_I with it (Freund 1990, eq. 5.3.10).
 
-    Reached on 2026-11-22: J too low by 5.0 % at 0.2 c_R and by 4.8 % at 0.5 c_R.
+    Reached on 2026-11-22: J too low by 4.8 % at 0.2 c_R and by 4.4 % at 0.5 c_R.
     """
     rows, rayleigh = run(steady(share), 0.17)
     speeds = wave_speeds(0.5 * E / (1 + NU), 3 - 4 * NU, 1190.0)
