@@ -17,9 +17,12 @@ TIP = (7.5, 4.2)
 
 
 @pytest.fixture(autouse=True)
-def no_tractions(monkeypatch):
-    """Leave the update alone with the energy."""
+def the_update_alone(monkeypatch):
+    """Leave the update alone with the energy: no tractions, no nodes that follow tips at rest."""
     monkeypatch.setattr("cramp_cli.step.resist_opening", lambda model, state, scratch: None)
+    for module in ("step", "grid_velocity", "cracks.tip_filter"):
+        name = f"cramp_cli.{module}.follow_behind_tips"
+        monkeypatch.setattr(name, lambda model, scratch, field: None)
 
 
 def moved(update, *, running, damping=0.0):

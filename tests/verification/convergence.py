@@ -51,7 +51,8 @@ CRACK = """
 ## K of a centre crack
 
 `inputs/center_crack.yaml`: the largest error over five places of the tip in its cell, the crack 0.4
-cells above a row of nodes.
+cells above a row of nodes. What is left is too little to tell an order; that of the edge crack, the
+harder case, is 1.4 from five to ten cells (`tests/verification/test_rest.py`).
 
 | cells per half crack | K_I | order |
 |---|---|---|"""
