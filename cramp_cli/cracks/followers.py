@@ -29,7 +29,7 @@ from cramp_cli.cracks.tip_nodes import FAR, along_crack
 from cramp_cli.cracks.tip_shares import inertia_of_jump
 from cramp_cli.numerics.kernel import inlined_kernel, kernel
 
-MOST = 32  # nodes beside a tip that may follow, or lead
+MOST = 32  # nodes of a tip that may follow, or lead: LATERAL and REACH of tip_nodes.py leave 30
 ON_TIP = 1e-9  # cells; a node at the tip is behind it
 LIGHT = 1e-6  # a smaller weight of a node that leads is none
 
