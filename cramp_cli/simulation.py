@@ -114,6 +114,7 @@ class _Run:
             check_health(self.model, self.state)
             self._tell_strange_rows()
             self._tell_short_domains()
+            self._tell_lost_faces()
         self._write(self.history_due, self.tips_due, self.frame_due)
         if self.keeper:
             self.keeper.after_step(self.state, self.remember)
@@ -239,6 +240,14 @@ class _Run:
         if short:
             text = f"{short} particles are longer than two cells: their domains are shortened"
             self._tell("short domains", text, "gaps may open; more particles_per_cell put it off")
+
+    def _tell_lost_faces(self) -> None:
+        """Say once when a boundary that has held a body holds none any more."""
+        for grip in self.scratch.held or ():
+            if grip.has_let_go(self.scratch.grid.mass):
+                name = self.model.conditions.names[grip.hold.boundary]
+                text = f"boundary '{name}' holds no particle any more"
+                self._tell(f"lost {name}", text, "the body has torn, or left it: look at a frame")
 
     def _tell_remarks(self) -> None:
         """Pass on what the step has to say, but not without end."""

@@ -1,10 +1,10 @@
 """Where a prescribed velocity acts: on a line of nodes that goes with the face it moves.
 
 Nodes stand still and the face that they push or pull does not. A line held for good would lose a
-face that moves on by more than a cell, without a word, and the sooner the finer the grid. So once a
-face has moved on by half a cell the next line of nodes, now the nearest, is held in its place, and
-with it the one outside, which the outermost particles still see. A face that has moved on by less
-is held by its first line alone.
+face that it pushes on by more than a cell, without a word, and the sooner the finer the grid; one
+that draws would hold other parts of the solid than its face. So the line goes on with the face, and
+with it those outside, which the outermost particles still see. A face that has been pushed by
+less than half a cell, or drawn by less than one, is held by its first line alone.
 """
 
 from dataclasses import dataclass
@@ -28,9 +28,19 @@ class Travel(NamedTuple):
     after: int  # lines of nodes after it
     outside: int  # -1 or 1: side of the plane on which no body lies; 0: bodies on both
 
-    def lines(self, cells: int) -> list[int]:
-        """Return the lines of nodes that hold a face which has moved on by so many cells."""
-        wanted = {cells, cells + self.outside} if cells else {0}
+    def cells(self, gone: float) -> int:
+        """Return by how many lines the line to hold has moved on; gone: way of the face (m).
+
+        A face that is pushed leaves its line outside, and the nearest line is held: half a cell
+        from it the outermost particles still see that line. A face that is drawn takes the solid
+        along across its line: the last one within the solid is held, for one outside lets go of it.
+        """
+        moved = gone / self.width
+        return int(moved) if moved * self.outside > 0.0 else floor(moved + 0.5)
+
+    def lines(self, cells: int, outer: int) -> list[int]:
+        """Return the lines of nodes that hold a face on line `cells`, with so many outside it."""
+        wanted = {cells + n * self.outside for n in range(outer + 1)}
         return sorted(line for line in wanted if -self.before <= line <= self.after)
 
 
@@ -53,6 +63,7 @@ class Grip:
         self.hold, self.cells = hold, 0
         self.held, self.beyond = hold.held, hold.beyond
         self.rows, self.count = self._room(), 0
+        self._had_mass = False
 
     def _room(self) -> np.ndarray:
         return np.zeros(3 * len(self.held.node) + 8, dtype=np.int64)
@@ -62,23 +73,24 @@ class Grip:
         hold, travel = self.hold, self.hold.travel
         if travel is None:
             return False
-        gone = travel.speed * hold.signal.distance(state)
-        cells = floor(gone / travel.width + 0.5)
+        cells = travel.cells(travel.speed * hold.signal.distance(state))
         if cells == self.cells:
             return False
-        self.cells = cells
-        steps = [line * travel.stride for line in travel.lines(cells)]
-        if hold.beyond is not None:
-            steps = [cells * travel.stride]
-            self.beyond = hold.beyond._replace(
-                node=hold.beyond.node + steps[0], image=hold.beyond.image + steps[0]
-            )
+        self.cells, self.beyond = cells, None if cells else hold.beyond
+        outer = 0 if not cells else 1 if hold.beyond is None else 2
+        steps = [line * travel.stride for line in travel.lines(cells, outer)]
         self.held = hold.held._replace(
             node=np.concatenate([hold.held.node + step for step in steps] or [hold.held.node[:0]]),
             inside=np.tile(hold.held.inside, len(steps)),
         )
         self.rows = self._room()
         return True
+
+    def has_let_go(self, mass) -> bool:
+        """Return whether its rows have had mass, at an earlier question, and have none now."""
+        has_mass = bool(mass[self.rows[: self.count]].any())
+        self._had_mass = self._had_mass or has_mass
+        return self._had_mass and not has_mass
 
     def speed(self, state) -> float:
         """Return the prescribed velocity now (m/s)."""
