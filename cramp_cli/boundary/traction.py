@@ -11,7 +11,7 @@ from cramp_cli.numerics.kernel import kernel
 from cramp_cli.numerics.vector import dot, times, vector
 from cramp_cli.shapes.shape import offsets, place_of, point_weights
 from cramp_cli.state.particles import DELETED
-from cramp_cli.transfer.rows import add
+from cramp_cli.transfer.rows import add, row_and_weight, rows_seen
 
 
 class Faces(NamedTuple):
@@ -30,8 +30,6 @@ def add_traction(field, stencil, index, faces, shape, strides, factor):
     particle, so its rows are the particle's.
     """
     particle, corner, load = faces.particle, faces.corner, faces.force
-    base, near = stencil.base, stencil.near
-    entries, which, table, share = stencil.entries, stencil.which, stencil.table, stencil.share
     steps = offsets(strides, shape)
     for c in range(len(particle)):
         p = index[particle[c]]
@@ -40,21 +38,15 @@ def add_traction(field, stencil, index, faces, shape, strides, factor):
         place = place_of(shape, strides, stencil, p)
         S = point_weights(place, shape, vector(strides, corner, c))
         f = times(vector(strides, load, c), factor)
-        first, line = base[p], near[p]
-        if line < 0:
-            for k in range(len(steps)):
-                add(field, first + steps[k], S[k], f)
-        else:
-            for e in range(entries[line]):
-                add(field, table[line, e], share[line, e] * S[which[line, e]], f)
+        for e in range(rows_seen(stencil, p, steps)):
+            row, w = row_and_weight(stencil, p, e, steps, S)
+            add(field, row, w, f)
 
 
 @kernel
 def traction_power(grid, stencil, index, faces, shape, strides):
     """Return the power of the face forces under unit load with the momenta of the grid (W)."""
     particle, corner, load = faces.particle, faces.corner, faces.force
-    base, near = stencil.base, stencil.near
-    entries, which, table, share = stencil.entries, stencil.which, stencil.table, stencil.share
     steps = offsets(strides, shape)
     power = 0.0
     for c in range(len(particle)):
@@ -64,14 +56,9 @@ def traction_power(grid, stencil, index, faces, shape, strides):
         place = place_of(shape, strides, stencil, p)
         S = point_weights(place, shape, vector(strides, corner, c))
         f = vector(strides, load, c)
-        first, line = base[p], near[p]
-        if line < 0:
-            for k in range(len(steps)):
-                power += S[k] * dot(row_velocity(strides, grid, first + steps[k]), f)
-        else:
-            for e in range(entries[line]):
-                w = share[line, e] * S[which[line, e]]
-                power += w * dot(row_velocity(strides, grid, table[line, e]), f)
+        for e in range(rows_seen(stencil, p, steps)):
+            row, w = row_and_weight(stencil, p, e, steps, S)
+            power += w * dot(row_velocity(strides, grid, row), f)
     return power
 
 

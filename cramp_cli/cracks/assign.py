@@ -7,8 +7,8 @@ goes to the row of its side, the rest to both sides (tip_shares.py).
 
 import numpy as np
 
-from cramp_cli.cracks.crossing import crossed_cracks, crossed_once, hidden_nodes, off_crack
-from cramp_cli.cracks.lines import NO_CRACK, cracks_between
+from cramp_cli.cracks.crossing import hidden_nodes, off_crack
+from cramp_cli.cracks.lines import cracks_between
 from cramp_cli.cracks.rows import add_normal, join_row
 from cramp_cli.cracks.segments import ON_CRACK
 from cramp_cli.cracks.tip_nodes import cut_share
@@ -162,16 +162,9 @@ def assign_rows(
             node = first + steps[k]
             tip = rows.tip[node]
             tip = -1 if tip >= 0 and of_crack[tip // 2] != group else tip
-            crossed = NO_CRACK
-            if unsure >> k & 1:
-                n = off_crack(segments, cell, n[0], n[1], tolerance)
-                crossed = crossed_cracks(segments, cell, x, y, n[0], n[1], tolerance)
-            elif hidden >> k & 1:
-                crossed = crossed_once(segments, k)
-            if crossed[0] >= 0:
-                crossed = cracks_between(
-                    segments, crossed, (x, y), n, tip, of_crack, group, tolerance
-                )
+            crossed = cracks_between(
+                segments, cell, hidden, unsure, k, (x, y), n, tip, of_crack, group, tolerance
+            )
             if tip < 0:
                 give_row(stencil, rows, segments.ends, line, k, node, group, crossed)
                 continue

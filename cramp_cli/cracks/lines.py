@@ -3,20 +3,28 @@
 Those of the particle's own body; and a tip that has been carried on counts at its own nodes only.
 """
 
-from cramp_cli.cracks.crossing import crosses
+from cramp_cli.cracks.crossing import crossed_cracks, crossed_once, crosses, off_crack
 from cramp_cli.numerics.kernel import inlined_kernel
 
 NO_CRACK = (-1, 0, -1, -1, 0, -1, 0)  # what `crossed_cracks` says of a free line
 
 
 @inlined_kernel
-def cracks_between(segments, crossed, place, n, tip, of_crack, group, tolerance):
-    """Return those of the cracks crossed that tell the row of a particle at a node.
+def cracks_between(segments, cell, hidden, unsure, k, place, n, tip, of_crack, group, tolerance):
+    """Return the cracks, as `crossed_cracks` does, that tell the row of a particle at its node k.
 
-    crossed: of `crossed_cracks`; place, n: of the particle and of the node, off the cracks (m)
-    tip: that which the node is beside, or -1; group: of the particle
+    hidden, unsure: of `hidden_nodes`; place: that of the particle, off the cracks
+    n: place of the node (m); tip: that which the node is beside, or -1; group: of the particle
     """
     (x, y), (nx, ny) = place, n
+    crossed = NO_CRACK
+    if unsure >> k & 1:
+        nx, ny = off_crack(segments, cell, nx, ny, tolerance)
+        crossed = crossed_cracks(segments, cell, x, y, nx, ny, tolerance)
+    elif hidden >> k & 1:
+        crossed = crossed_once(segments, k)
+    if crossed[0] < 0:
+        return NO_CRACK
     own = tip // 2 if tip >= 0 else -1
     crossed = without_imagined(segments, crossed, own, x, y, nx, ny, tolerance)
     return of_group(crossed, of_crack, group)

@@ -14,6 +14,7 @@ from cramp_cli.cracks.fields import follow_behind_tips
 from cramp_cli.numerics.kernel import kernel
 from cramp_cli.shapes.shape import offsets, place_of, weights
 from cramp_cli.state.growth import running_tips
+from cramp_cli.transfer.rows import row_and_weight, rows_seen
 
 CORE, SKIN = 3.0, 1.0  # cells around a tip that are its own, and in which that fades
 SEEN = 3.0  # cells beyond that whose particles share nodes with those filtered
@@ -118,9 +119,9 @@ def _to_rows(sums, stencil, mass, chosen, field, shape, strides):
     dim, steps = len(strides), offsets(strides, shape)
     for i in range(len(chosen)):
         p = chosen[i]
-        line, S = stencil.near[p], weights(place_of(shape, strides, stencil, p), shape)
-        for e in range(len(steps) if line < 0 else stencil.entries[line]):
-            row, w = _entry(stencil, line, e, stencil.base[p], steps, S)
+        S = weights(place_of(shape, strides, stencil, p), shape)
+        for e in range(rows_seen(stencil, p, steps)):
+            row, w = row_and_weight(stencil, p, e, steps, S)
             for d in range(dim):
                 sums[row, d] += w * mass[i] * field[i, d]
 
@@ -131,18 +132,10 @@ def _from_rows(out, sums, mass, stencil, chosen, shape, strides):
     dim, steps = len(strides), offsets(strides, shape)
     for i in range(len(chosen)):
         p = chosen[i]
-        line, S = stencil.near[p], weights(place_of(shape, strides, stencil, p), shape)
+        S = weights(place_of(shape, strides, stencil, p), shape)
         out[i, :] = 0.0
-        for e in range(len(steps) if line < 0 else stencil.entries[line]):
-            row, w = _entry(stencil, line, e, stencil.base[p], steps, S)
+        for e in range(rows_seen(stencil, p, steps)):
+            row, w = row_and_weight(stencil, p, e, steps, S)
             if mass[row] > 0.0:
                 for d in range(dim):
                     out[i, d] += w * sums[row, d] / mass[row]
-
-
-@kernel
-def _entry(stencil, line, e, base, steps, S):
-    """Return row and weight of an entry of a particle, listed or not."""
-    if line < 0:
-        return base + steps[e], S[e]
-    return stencil.table[line, e], stencil.share[line, e] * S[stencil.which[line, e]]

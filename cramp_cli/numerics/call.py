@@ -25,8 +25,8 @@ class Kernel:
 
     def __init__(self, function, **options):
         self._function, self._options = function, options
-        self._same = {}  # the very arguments of a call: machine code, and they, so that they stay
-        self._known = {}  # what was handed: machine code, and the records, so that they stay
+        self._same = {}  # what was handed, at a look: machine code, and what stays for its sake
+        self._known = {}  # the same at a second look, into tuples
         self._spent = 0  # on looking at new arguments, in calls that were quicker since
         update_wrapper(self, function)
         _KERNELS.append(self)
@@ -38,13 +38,20 @@ class Kernel:
 
     def __call__(self, *args):
         """Call the machine code for the types of the arguments."""
-        very = tuple([c if (c := type(a)) in _NUMBERS else id(a) for a in args])
-        same = self._same.get(very)
+        seen = tuple(
+            [
+                (a.dtype, a.ndim, a.flags.num)
+                if (c := type(a)) is np.ndarray
+                else (c if c in _NUMBERS else id(a))
+                for a in args
+            ]
+        )
+        same = self._same.get(seen)
         if same is not None:
             return same[0](*args)
-        return self._call_with_others(very, args)
+        return self._call_with_others(seen, args)
 
-    def _call_with_others(self, very, args):
+    def _call_with_others(self, seen, args):
         """Call it for arguments that are not those of a call before; their types may be."""
         if self._spent > REMEMBERED * WORTH:  # its records are made anew all the time
             return self.compiled(*args)
@@ -56,7 +63,7 @@ class Kernel:
             self._remember(handed, args)
             return result
         self._spent = max(self._spent - 1, 0)
-        _keep(self._same, very, (known[0], args))
+        _keep(self._same, seen, (known[0], _told_by_id(args)))
         return known[0](*args)
 
     def _remember(self, handed, args) -> None:
@@ -64,7 +71,7 @@ class Kernel:
         exact = self.compiled.overloads.get(tuple(map(self.compiled.typeof_pyval, args)))
         if exact is None:  # numba converted an argument, which the machine code itself does not
             return
-        _keep(self._known, handed, (exact.entry_point, args))
+        _keep(self._known, handed, (exact.entry_point, _told_by_id(args)))
 
     def forget(self) -> None:
         """Let go of all records."""
@@ -78,6 +85,11 @@ def _keep(table, key, entry) -> None:
     if len(table) == REMEMBERED:
         table.clear()
     table[key] = entry
+
+
+def _told_by_id(args) -> list:
+    """Return what must stay as long as it is told by its id; arrays are told by their type."""
+    return [a for a in args if type(a) is not np.ndarray]
 
 
 def _recognize(value):

@@ -5,32 +5,25 @@ index: where the particle of a number is, or DELETED
 """
 
 from cramp_cli.numerics.kernel import kernel
-from cramp_cli.numerics.vector import dot, scaled, vector
+from cramp_cli.numerics.vector import dot, times, vector
 from cramp_cli.shapes.shape import offsets, place_of, weights
 from cramp_cli.state.particles import DELETED
-from cramp_cli.transfer.rows import add
+from cramp_cli.transfer.rows import add, row_and_weight, rows_seen
 
 
 @kernel
 def sum_particle_force(grid, numbers, load, index, stencil, shape, strides, factor):
     """Add f_i = sum S P_p, the forces P factor times the load."""
-    force = grid.force
-    base, near = stencil.base, stencil.near
-    entries, which, table, share = stencil.entries, stencil.which, stencil.table, stencil.share
     steps = offsets(strides, shape)
     for c in range(len(numbers)):
         p = index[numbers[c]]
         if p == DELETED:
             continue
-        S = scaled(weights(place_of(shape, strides, stencil, p), shape), factor)
-        P = vector(strides, load, c)
-        first, line = base[p], near[p]
-        if line < 0:
-            for k in range(len(steps)):
-                add(force, first + steps[k], S[k], P)
-        else:
-            for e in range(entries[line]):
-                add(force, table[line, e], share[line, e] * S[which[line, e]], P)
+        S = weights(place_of(shape, strides, stencil, p), shape)
+        P = times(vector(strides, load, c), factor)
+        for e in range(rows_seen(stencil, p, steps)):
+            row, w = row_and_weight(stencil, p, e, steps, S)
+            add(grid.force, row, w, P)
 
 
 @kernel

@@ -1,4 +1,7 @@
-"""What a particle near a crack gives to its rows: the list of its entries (state/stencil.py)."""
+"""What particles give to their rows: those near cracks have lists of entries (state/stencil.py).
+
+Few particles, as loaded ones, ask for their rows one by one; sums over all do not: to_grid.py.
+"""
 
 from cramp_cli.numerics.kernel import kernel
 from cramp_cli.numerics.vector import (
@@ -14,6 +17,22 @@ def add(field, row, s, v):
     """Add s v to a row of a (rows, dim) array."""
     for d in range(len(v)):
         field[row, d] += s * v[d]
+
+
+@kernel
+def rows_seen(stencil, p, steps):
+    """Return how many rows a particle sees, listed or not; steps: to its nodes."""
+    line = stencil.near[p]
+    return len(steps) if line < 0 else stencil.entries[line]
+
+
+@kernel
+def row_and_weight(stencil, p, e, steps, S):
+    """Return row `e` of those that a particle sees, and its weight; S: weights at its nodes."""
+    line = stencil.near[p]
+    if line < 0:
+        return stencil.base[p] + steps[e], S[e]
+    return stencil.table[line, e], stencil.share[line, e] * S[stencil.which[line, e]]
 
 
 @kernel

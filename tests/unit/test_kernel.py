@@ -1,7 +1,9 @@
 """Kernels recognize what they are handed, and never mistake it for something else."""
 
+import gc
 import subprocess
 import sys
+import weakref
 from typing import NamedTuple
 
 import numba
@@ -107,6 +109,27 @@ def test_a_first_kernel_does_not_load_scipy_and_leaves_it_whole():
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert (done.stdout.strip(), done.stderr) == ("2.0", "")
+
+
+@compiled
+def test_arrays_made_anew_are_not_kept():
+    """Weights of 2.5 million particles are 40 MB, made at each step."""
+    made = [np.full(3, 7.0) for _ in range(2 * REMEMBERED)]
+    assert [_first(one) for one in made] == [7.0] * len(made)
+    alive = [weakref.ref(one) for one in made]
+    del made
+    gc.collect()
+    assert not any(one() is not None for one in alive)
+
+
+@compiled
+def test_an_array_that_can_not_be_written_now_is_told_apart():
+    one, before = np.full(3, 7.0), set(_first.compiled.overloads)
+    for writeable in (True, True, True, False, False):
+        one.setflags(write=writeable)
+        assert _first(one) == 7.0
+    new = set(_first.compiled.overloads) - before
+    assert any(not array.mutable for (array,) in new)
 
 
 @compiled
