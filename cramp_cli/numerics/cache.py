@@ -1,9 +1,4 @@
-"""Never run a stale kernel.
-
-Numba looks only at the file that holds a kernel when it decides whether its cached machine code is
-still good; a formula edited in another file would go unnoticed. So the cache folder is named by a
-hash of all sources that kernels are made of: change any of them and everything compiles anew.
-"""
+"""What names the sources of the program, and where it keeps things for later runs."""
 
 import hashlib
 import json
@@ -12,23 +7,12 @@ import tempfile
 from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parent.parent
-WITH_KERNELS = (
-    "boundary",
-    "cohesive",
-    "contact",
-    "cracks",
-    "materials",
-    "numerics",
-    "shapes",
-    "state",
-    "transfer",
-)
 
 
-def source_hash(folders=("",)) -> str:
-    """Return the first 16 hex digits of the SHA-256 over the sources of the package or of parts."""
+def source_hash() -> str:
+    """Return the first 16 hex digits of the SHA-256 over the sources of the package."""
     digest = hashlib.sha256()
-    for path in sorted(path for folder in folders for path in (PACKAGE / folder).rglob("*.py")):
+    for path in sorted(PACKAGE.rglob("*.py")):
         digest.update(path.relative_to(PACKAGE).as_posix().encode())
         digest.update(path.read_bytes())
     return digest.hexdigest()[:16]
@@ -43,12 +27,6 @@ def cache_root() -> Path:
     if os.path.isabs(base) and os.access(_nearest_existing(Path(base)), os.W_OK):
         return Path(base) / "cramp"
     return Path(tempfile.gettempdir()) / f"cramp-cache-{os.getuid()}"
-
-
-def cache_folder() -> Path:
-    """Return the cache folder of exactly these kernels; those that check indices have their own."""
-    checked = "-bounds" if os.environ.get("NUMBA_BOUNDSCHECK", "0") not in ("", "0") else ""
-    return cache_root() / f"{source_hash(WITH_KERNELS)}{checked}"
 
 
 def recall(name: str) -> dict:

@@ -13,10 +13,10 @@ from functools import partial
 
 import numba
 
-from cramp_cli.numerics.cache import cache_folder
 from cramp_cli.numerics.call import Kernel
+from cramp_cli.numerics.kernel_cache import keep_kernels_by_what_they_are_made_of
 
-numba.config.CACHE_DIR = str(cache_folder())
+keep_kernels_by_what_they_are_made_of()
 numba.config.SLP_VECTORIZE = 1  # x and y side by side in one register: a step is 6 % faster
 
 OPTIONS = {"cache": True, "error_model": "numpy", "nogil": True, "_nrt": False}

@@ -3,7 +3,8 @@
 import os
 from pathlib import Path
 
-from cramp_cli.numerics.cache import cache_folder
+from cramp_cli.numerics.cache import cache_root
+from cramp_cli.numerics.kernel_cache import kernel_folders
 from cramp_cli.output.machine import (
     available_disk,
     available_memory,
@@ -16,7 +17,7 @@ from cramp_cli.output.machine import (
 
 def examine() -> tuple[dict[str, object], list[str]]:
     """Return facts about the installation, and what is wrong with it."""
-    folder, memory = cache_folder(), available_memory()
+    folder, memory = cache_root(), available_memory()
     found = versions()
     faults = [f"{name} is not installed" for name, text in found.items() if text == "missing"]
     if not writable(folder):
@@ -28,7 +29,7 @@ def examine() -> tuple[dict[str, object], list[str]]:
         "memory free": "unknown" if memory is None else human_bytes(memory),
         "disk free here": human_bytes(available_disk(Path.cwd())),
         "cache": folder,
-        "cached": f"{sum(1 for _ in folder.rglob('*.nbc'))} kernels",
+        "cached": f"{sum(len(list(f.glob('*.nbc'))) for f in kernel_folders())} kernels",
     }
     return facts, faults
 

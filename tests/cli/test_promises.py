@@ -11,6 +11,7 @@ import resource
 import signal
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -23,9 +24,10 @@ from support import build_deck, read
 from cramp_cli import simulation
 from cramp_cli.build import build
 from cramp_cli.build.model import time_step
+from cramp_cli.cracks.crossing import double_area
 from cramp_cli.deck.deck import read_deck
 from cramp_cli.energy_balance import Balance
-from cramp_cli.numerics import cache
+from cramp_cli.numerics import kernel_cache
 from cramp_cli.output.checkpoint import checkpoints, read_state
 from cramp_cli.output.exits import FolderError
 from cramp_cli.output.fields import read_frames
@@ -446,16 +448,33 @@ def test_7_two_runs_in_one_folder_and_resume(here):
 # ------------------------------------------------------------------ 8 no stale kernels
 
 
-def test_8_the_cache_is_named_by_the_sources_of_kernels(tmp_path, monkeypatch):
-    for name in ("cracks/a.py", "output/b.py", "step.py"):
-        (tmp_path / name).parent.mkdir(exist_ok=True)
-        (tmp_path / name).write_text("x = 1\n")
-    monkeypatch.setattr(cache, "PACKAGE", tmp_path)
-    before = cache.cache_folder()
-    (tmp_path / "output/b.py").write_text("x = 2\n")
-    assert cache.cache_folder() == before
+def test_8_a_kernel_is_kept_under_a_hash_of_all_it_is_made_of(monkeypatch):
+    """Edit any module: the kernels that could have changed compile anew, and no others."""
+    sources = kernel_cache.read_sources()
+    before = kernel_cache.hashes_of(sources)
+
+    def touched(module, old, new):
+        assert old in sources[module], module
+        after = kernel_cache.hashes_of(sources | {module: sources[module].replace(old, new, 1)})
+        return {name.removeprefix("cramp_cli.") for name in before if before[name] != after[name]}
+
+    comment = touched("cramp_cli.cracks.rows", '"""', '"""Again: ')
+    assert {"cracks.rows", "cracks.assign", "cracks.followers", "step"} <= comment
+    assert not comment & {"transfer.to_grid", "cracks.crossing", "materials.elastic"}
+    body = touched("cramp_cli.shapes.ugimp", '"""', '"""Again: ')  # chosen by type, not imported
+    assert {"shapes.shape", "transfer.to_grid", "transfer.to_particles"} <= body
+    assert "cracks.rows" not in body
+    aside = touched("cramp_cli.output.run", '"""', '"""Again: ')
+    assert not {name for name in aside if "kernel\ndef " in sources[f"cramp_cli.{name}"]}
+    field = touched("cramp_cli.cracks.followers", "    count: np", "    counts: np")
+    assert field == {name.removeprefix("cramp_cli.") for name in before}  # handed to any of them
+
+    folder = kernel_cache.kernel_folder(kernel_cache.PACKAGE / "cracks/rows.py")
+    assert folder.name == f"cramp_cli.cracks.rows-{before['cramp_cli.cracks.rows']}"
     monkeypatch.setenv("NUMBA_BOUNDSCHECK", "1")
-    assert cache.cache_folder() != before
-    monkeypatch.delenv("NUMBA_BOUNDSCHECK")
-    (tmp_path / "cracks/a.py").write_text("x = 2\n")
-    assert cache.cache_folder() != before
+    assert kernel_cache.kernel_folder(kernel_cache.PACKAGE / "cracks/rows.py") != folder
+
+
+def test_8_numba_keeps_kernels_where_we_say():
+    path = Path(double_area.compiled._cache.cache_path)
+    assert path == kernel_cache.kernel_folder(kernel_cache.PACKAGE / "cracks/crossing.py")

