@@ -1,5 +1,6 @@
 """Regions of the plane: polygons, and shapes made of other shapes."""
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import ClassVar, Literal
@@ -40,12 +41,11 @@ class Polygon(Shape):
 
     def wrong_values(self) -> Iterator[Wrong]:
         """It must not cross itself."""
-        from shapely import is_valid_reason
-
         outline = self.outline()
-        if not outline.is_valid or outline.area <= 0.0:
-            reason = is_valid_reason(outline).replace("[", " at (").replace("]", ")")
-            yield ("points",), f"is no simple polygon: {reason.lower()}"
+        if not outline.is_valid:
+            yield ("points",), f"is no simple polygon: its border meets itself{_place(outline)}"
+        elif outline.area <= 0.0:
+            yield ("points",), "is no simple polygon: it has no area"
 
     def contains(self, points):
         """Return which points lie inside; the left and lower border belong to it."""
@@ -105,6 +105,14 @@ class Difference(Shape):
         from shapely import union_all
 
         return self.of.outline() - union_all([shape.outline() for shape in self.minus])
+
+
+def _place(outline) -> str:
+    """Return where shapely finds the border at odds with itself, as far as it tells."""
+    from shapely import is_valid_reason
+
+    found = re.search(r"\[(\S+) (\S+)\]", is_valid_reason(outline))
+    return f" at ({found[1]}, {found[2]}) m" if found else ""
 
 
 AnyShape = one_of(

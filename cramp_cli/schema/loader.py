@@ -2,17 +2,20 @@
 
 PyYAML's own reading takes `1e-3` and `2e11` for text, `NO` for false and `010` for 8, lets the
 second of two equal keys win, and follows tags and aliases. Only its scanner is used here; the tree
-is built from its events without recursion, so depth and size are bounded.
+is built from its events without recursion, and depth and size are bounded before it is asked.
 """
 
 import re
 
 import yaml
 
+from cramp_cli.schema.depth import too_deep
 from cramp_cli.schema.mistake import DeckError, Mark, Mistake, Path, Source
+from cramp_cli.schema.syntax import fault_of
 
 LARGEST = 16 * 1024 * 1024  # bytes of a deck
 DEEPEST = 64
+TOO_DEEP = f"is nested more than {DEEPEST} levels deep"
 MOST_ENTRIES = 200_000
 
 NOT_PRINTABLE = re.compile(
@@ -62,6 +65,9 @@ def load(text: str, name: str = "deck") -> Source:
         line, column = _place_of(text, strange.start())
         code = ord(strange[0])
         raise _one(name, line, column, f"character U+{code:04X} is not allowed in a deck")
+    deep = too_deep(text, DEEPEST)
+    if deep is not None:
+        raise _one(name, *_place_of(text, deep), TOO_DEEP)
     tree = _Tree(name, text)
     try:
         scanner = SCANNER(text)
@@ -71,7 +77,7 @@ def load(text: str, name: str = "deck") -> Source:
         finally:
             scanner.dispose()
     except yaml.YAMLError as problem:
-        raise _syntax(name, text, problem) from None
+        raise _one(name, *fault_of(text, problem)) from None
     return tree.source
 
 
@@ -121,7 +127,7 @@ class _Tree:
         if event.tag is not None:
             raise self._stop(event, f"tags such as {event.tag[:40]} are not allowed")
         if len(self.open) >= DEEPEST and not isinstance(event, yaml.ScalarEvent):
-            raise self._stop(event, f"is nested more than {DEEPEST} levels deep")
+            raise self._stop(event, TOO_DEEP)
         if self.entries > MOST_ENTRIES:
             text = f"has more than {MOST_ENTRIES} entries; put long lists of points into a csv file"
             raise self._stop(event, text)
@@ -185,19 +191,3 @@ def _one(name: str, line: int, column: int, message: str) -> DeckError:
 
 def _place_of(text: str, offset: int) -> tuple[int, int]:
     return text.count("\n", 0, offset) + 1, offset - text.rfind("\n", 0, offset)
-
-
-def _syntax(name: str, text: str, problem: yaml.YAMLError) -> DeckError:
-    """Return a scanner's complaint as one mistake with its place."""
-    at = getattr(problem, "problem_mark", None) or getattr(problem, "context_mark", None)
-    line, column = (at.line + 1, at.column + 1) if at else (1, 1)
-    lines = text.split("\n")
-    if line > len(lines):
-        line, column = len(lines), len(lines[-1]) + 1
-    here = lines[line - 1]
-    if "\t" in here[: len(here) - len(here.lstrip())]:
-        return _one(name, line, here.index("\t") + 1, "tab used for indentation; use spaces")
-    reason = getattr(problem, "problem", None) or "unreadable"
-    context = getattr(problem, "context", None)
-    reason = f"{reason} {context}" if context else reason
-    return _one(name, line, column, f"not valid YAML: {reason}")

@@ -1,13 +1,16 @@
 """Safe YAML with the words of version 1.2."""
 
 import math
+import re
 import time
 
 import pytest
+import yaml
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from cramp_cli.schema import loader
+from cramp_cli.schema.depth import too_deep
 from cramp_cli.schema.loader import decode, load, plain_scalar, read_source
 from cramp_cli.schema.mistake import DeckError
 
@@ -98,11 +101,10 @@ def test_marks_point_at_key_and_value():
         ("a:\n  - 1\n\t- 2", "d.yaml:3:1: tab used for indentation; use spaces"),
         ("a: 1\nb: x\0y", "d.yaml:2:5: character U+0000 is not allowed in a deck"),
         ("a: \ud800", "d.yaml:1:4: character U+D800 is not allowed in a deck"),
-        ("a: b: c", "d.yaml:1:5: not valid YAML: mapping values are not allowed in this context"),
-        ("a: [1, 2", None),
-        ("a: 'x", None),
-        ("{" * 65, None),
-        ("[" * 100000, "d.yaml:1:65: is nested more than 64 levels deep"),
+        ("{" * 65, f"d.yaml:1:65: {loader.TOO_DEEP}"),
+        ("[" * 100000, f"d.yaml:1:65: {loader.TOO_DEEP}"),
+        ("a: 1\nb:\n  - {c: " + "[\n" * 1000, f"d.yaml:66:1: {loader.TOO_DEEP}"),
+        ("- " * 100000, f"d.yaml:1:129: {loader.TOO_DEEP}"),
     ],
 )
 def test_what_is_refused(text, found):
@@ -110,6 +112,61 @@ def test_what_is_refused(text, found):
     if found:
         assert message == found
     assert message.startswith("d.yaml:")
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "hint"),
+    [
+        ("a: b: c", 1, "a value that holds ': ' must stand in quotes"),
+        ("a:\n  b: [1, 2\nc: 3", 3, "what begins with [ in line 2 is not closed rightly"),
+        ("a: 'x", 1, "what begins with ' in line 1 is not closed rightly"),
+        ("a: {b: 1]", 1, "what begins with { in line 1 is not closed rightly"),
+    ],
+)
+def test_what_is_no_yaml_is_told_in_our_words(text, line, hint):
+    """The library's own words, which change from release to release, come behind in brackets."""
+    assert re.match(rf"d\.yaml:{line}:\d+: not valid YAML: {re.escape(hint)} \(", mistake(text))
+
+
+def test_the_library_is_not_asked_about_what_is_too_deep(monkeypatch):
+    """Its own bound on depth, and its words for it, are another one in every release."""
+    monkeypatch.setattr(loader, "SCANNER", None)
+    assert mistake("a: " + "[" * 65).endswith(loader.TOO_DEEP)
+
+
+def nested(leaf):
+    lists = st.lists(leaf, min_size=1, max_size=2).map(lambda some: f"[{', '.join(some)}]")
+    pairs = leaf.map(lambda one: f"{{a b: {one}}}") | leaf.map(lambda one: f'{{"]": {one}}}')
+    return lists | pairs | leaf.map(lambda one: f"[ # [[\n {one},]")
+
+
+words = st.sampled_from(["1 mm", "it's", "'[ it''s'", '"{\\"["', "a:b", "a#b", "~"])
+lines = st.sampled_from(
+    [
+        "a: {}",
+        "- {}",
+        "- a: {}",
+        "? {}",
+        "{}",
+        "a: |\n  [[\n  [\nb: {}",
+        "# [\na:\n  {}",
+        "- >\n [\n- {}",
+    ]
+)
+
+
+@settings(max_examples=300)
+@given(st.recursive(words, nested, max_leaves=30), lines, st.integers(1, 6))
+def test_depth_is_that_of_the_brackets(value, line, deepest):
+    """As the events of the library tell, which come too late for what is far too deep."""
+    text, depth, most = line.replace("{}", value), 0, 0
+    for event in yaml.parse(text):
+        flow = getattr(event, "flow_style", None)
+        if flow:
+            depth, most = depth + 1, max(most, depth + 1)
+        elif isinstance(event, yaml.SequenceEndEvent | yaml.MappingEndEvent):
+            depth = max(depth - 1, 0)
+    assert (too_deep(text, deepest) is not None) == (most > deepest)
 
 
 def test_a_billion_laughs():

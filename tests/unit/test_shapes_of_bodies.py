@@ -144,7 +144,7 @@ def test_points_of_a_file_are_checked_too(tmp_path):
         ),
         (
             {"type": "polygon", "points": [[0, 0], [1, 1], [1, 0], [0, 1]]},
-            [(("points",), "is no simple polygon: self-intersection at (0.5 0.5)")],
+            [(("points",), "is no simple polygon: its border meets itself at (0.5, 0.5) m")],
         ),
         (
             {"type": "polygon", "points": [[0, 0], [1, 1]]},
