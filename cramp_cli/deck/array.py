@@ -6,12 +6,10 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
-from cramp_cli.deck.assembly import Assembly
+from cramp_cli.deck.assembly import MOST_PIECES, Assembly
 from cramp_cli.deck.shape import KIND, Shape
 from cramp_cli.schema.section import Count, Wrong
 from cramp_cli.schema.units import Length, pair
-
-MOST = 100_000  # copies
 
 
 class Array(Assembly):
@@ -28,13 +26,18 @@ class Array(Assembly):
     def wrong_values(self) -> Iterator[Wrong]:
         """There are copies, at different places."""
         for axis, count in enumerate(self.count):
-            if not 1 <= count <= MOST:
-                yield ("count", axis), f"must be from 1 to {MOST} (got {count})"
+            if not 1 <= count <= MOST_PIECES:
+                yield ("count", axis), f"must be from 1 to {MOST_PIECES} (got {count})"
             if count > 1 and self.spacing[axis] <= 0.0:
                 yield ("spacing", axis), f"must be above 0 (got {self.spacing[axis]:g} m)"
-        if self.count[0] * self.count[1] > MOST:
-            total = self.count[0] * self.count[1]
-            yield ("count",), f"makes {total} copies; at most {MOST} are possible"
+        copies, each = self.count[0] * self.count[1], self.of.count_pieces()
+        if copies * each > MOST_PIECES:
+            of = f" of {each} shapes, {copies * each} in all" if each > 1 else ""
+            yield ("count",), f"makes {copies} copies{of}; at most {MOST_PIECES} are possible"
+
+    def count_pieces(self) -> int:
+        """Return how many simple shapes all copies are."""
+        return self.count[0] * self.count[1] * self.of.count_pieces()
 
     def pieces(self) -> tuple[Shape, ...]:
         """Return the copies, row by row from below."""

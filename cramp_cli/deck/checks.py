@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from cramp_cli.deck.assembly import MOST_PIECES
 from cramp_cli.deck.bodies import FIT
 from cramp_cli.deck.crack_checks import crack_mistakes
 from cramp_cli.deck.lattice import Box, nearest_lines
@@ -52,6 +53,20 @@ def _bodies_of_loads(data: dict) -> Iterator[Wrong]:
             continue
         message = f"{shown(name)} is a hole" if name in holes else unknown("body", name, solid)
         yield ("loads", place, "body"), message
+
+
+def too_many_mistakes(parts: Parts) -> Iterator[Wrong]:
+    """Yield what would take minutes to make only to find out that it is too much.
+
+    Nothing is made here: pieces of shapes are counted, not copied.
+    """
+    total = 0
+    for place, body in parts.bodies:
+        total += body.shape.count_pieces()
+        if total > MOST_PIECES:
+            message = f"the shapes of all bodies have {total} pieces up to this one"
+            yield ("bodies", place, "shape"), f"{message}; at most {MOST_PIECES} are possible"
+            return
 
 
 def geometry_mistakes(parts: Parts) -> Iterator[Wrong]:

@@ -15,12 +15,14 @@ SHORTEST, LONGEST = 0.1, 2.0  # cells; usual length of a crack's pieces
 
 def crack_mistakes(parts: Parts) -> Iterator[Wrong]:
     """Yield cracks outside all bodies and cracks cut into too many pieces."""
+    total = 0.0
     for place, crack in parts.cracks:
         longest = crack.segment or (parts.grid.cell / 2 if parts.grid else crack.length)
         pieces = crack.length / longest
-        if pieces > MOST_PIECES:
-            key = ("segment",) if crack.segment else ()
-            message = f"would be cut into {pieces:.3g} pieces (at most {MOST_PIECES})"
+        total += pieces
+        if total > MOST_PIECES:
+            key, total = ("segment",) if crack.segment else (), 0.0
+            message = f"would be cut into {pieces:.3g} pieces (at most {MOST_PIECES} of all cracks)"
             yield ("cracks", place, *key), message
     if parts.all_bodies and parts.solids:
         regions = _regions(parts)

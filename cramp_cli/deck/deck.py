@@ -8,7 +8,7 @@ from pydantic import AfterValidator, Field, PrivateAttr, ValidationError
 
 from cramp_cli.deck.bodies import BodySection, GridSection
 from cramp_cli.deck.boundary import BoundarySection
-from cramp_cli.deck.checks import geometry_mistakes, name_mistakes
+from cramp_cli.deck.checks import geometry_mistakes, name_mistakes, too_many_mistakes
 from cramp_cli.deck.contact import AnyContact, ContactSection
 from cramp_cli.deck.contact_groups import contact_mistakes
 from cramp_cli.deck.crack_checks import crack_warnings
@@ -144,6 +144,8 @@ def check_deck(source: Source, folder: Path) -> Deck:
     except ValidationError as failure:
         found += [source.mistake(*error) for error in explain(failure, data)]
         parts = salvage(data, folder)
+    if many := [source.mistake(*one) for one in too_many_mistakes(parts)]:
+        raise DeckError(found + many)
     wrong = [*name_mistakes(data), *geometry_mistakes(parts)]
     if deck is not None:
         wrong += each_mistakes(deck)

@@ -15,6 +15,7 @@ from cramp_cli.schema.section import Count, Wrong, only_one
 from cramp_cli.schema.units import Length, Number
 
 MOST = 20_000  # disks
+JAMMED, ALIKE = 0.55, 0.9  # equal disks jam at 0.547 (scatter.py), those nearly alike hardly later
 
 
 class Pack(Assembly):
@@ -51,8 +52,23 @@ class Pack(Assembly):
             yield ("fraction",), f"is less than one disk fills (got {self.fraction:g})"
         elif len(self.radii) > MOST:
             yield ("fraction",), f"makes more than {MOST} disks; take larger ones"
+        elif self._is_hopeless():
+            yield (
+                (key,),
+                (
+                    f"can not be reached: {len(self.radii)} disks of this size would fill "
+                    f"{self._share():.3f} of the region; disks thrown at random jam near 0.5"
+                ),
+            )
         elif len(self.disks) < len(self.radii):
             yield (key,), self._lack(getattr(self, key))
+
+    def _is_hopeless(self) -> bool:
+        """Return whether disks nearly alike would fill more than random throws ever can."""
+        return min(self.radii) > ALIKE * max(self.radii) and self._share() > JAMMED
+
+    def _share(self) -> float:
+        return sum(pi * radius**2 for radius in self.radii) / self.inside.outline().area
 
     def _lack(self, wanted: float) -> str:
         """Return what to say of disks that found no room."""
@@ -62,6 +78,10 @@ class Pack(Assembly):
             f"fraction of {share:.3f} (got {wanted:g}); disks thrown at random jam near 0.5: take "
             "fewer, smaller ones or another seed"
         )
+
+    def count_pieces(self):
+        """Return the number of disks, without throwing them."""
+        return len(self.radii)
 
     def pieces(self) -> tuple[Shape, ...]:
         """Return the disks."""

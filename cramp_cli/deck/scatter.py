@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from random import Random
 
 TRIALS = 20_000  # throws for one disk before there is no room
+MOST_TRIALS = 2_000_000  # for all disks: within half a minute
 
 
 def scatter(
@@ -16,7 +17,7 @@ def scatter(
     """Return x, y and radius (m) of disks in a region, none nearer than `gap` (m) to another.
 
     inside: a shapely geometry that holds each disk whole; radii: in the order of placing (m)
-    returns: fewer than `radii` if one finds no room
+    returns: fewer than `radii` if one finds no room, or all have taken too many throws
     """
     floor = _Floor(2.0 * max(radii) + gap)
     rooms = {}
@@ -45,7 +46,8 @@ def _throw(room, floor: "_Floor", radius, gap, random) -> tuple[float, float] | 
     if room.is_empty:
         return None
     x0, y0, x1, y1 = room.bounds
-    for _ in range(TRIALS):
+    for _ in range(min(TRIALS, MOST_TRIALS - floor.thrown)):
+        floor.thrown += 1
         x, y = x0 + (x1 - x0) * random.random(), y0 + (y1 - y0) * random.random()
         if floor.is_free(x, y, radius + gap) and contains_xy(room, x, y):
             return x, y
@@ -56,7 +58,7 @@ class _Floor:
     """Disks on square tiles as wide as two of them, so that neighbours lie on nine tiles."""
 
     def __init__(self, tile: float):
-        self.tile = tile
+        self.tile, self.thrown = tile, 0
         self.disks: list[tuple[float, float, float]] = []
         self.on_tile: dict[tuple[int, int], list[tuple[float, float, float]]] = {}
 

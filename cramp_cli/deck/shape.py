@@ -46,6 +46,10 @@ class Shape(Section):
         """Return the shapes of which it is made, each one able to be a body of its own."""
         return (self,)
 
+    def count_pieces(self) -> int:
+        """Return of how many simple shapes it is made, told without making them."""
+        return 1
+
     def moved(self, way: tuple[float, float]) -> Self:
         """Return the same shape elsewhere, by `way` (m)."""
         fields = {name: getattr(self, name) for name in type(self).model_fields}

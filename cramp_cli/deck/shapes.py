@@ -2,13 +2,14 @@
 
 import re
 from collections.abc import Iterator
+from functools import cached_property
 from pathlib import Path
 from typing import ClassVar, Literal
 
 from pydantic import Field
 
 from cramp_cli.deck.array import Array
-from cramp_cli.deck.assembly import Union
+from cramp_cli.deck.assembly import Union, union_of
 from cramp_cli.deck.image import Image
 from cramp_cli.deck.mesh import Mesh
 from cramp_cli.deck.pack import Pack
@@ -95,6 +96,10 @@ class Difference(Shape):
             inside &= ~shape.contains(points)
         return inside
 
+    def count_pieces(self):
+        """Return how many simple shapes it and those cut away are made of."""
+        return sum(shape.count_pieces() for shape in (self.of, *self.minus))
+
     def bounds(self):
         """Return the corners of the box around what is left (m)."""
         x0, y0, x1, y1 = self.outline().bounds
@@ -102,9 +107,11 @@ class Difference(Shape):
 
     def outline(self):
         """Return the outline of what is left."""
-        from shapely import union_all
+        return self._outline
 
-        return self.of.outline() - union_all([shape.outline() for shape in self.minus])
+    @cached_property
+    def _outline(self):
+        return self.of.outline() - union_of([shape.outline() for shape in self.minus])
 
 
 def _place(outline) -> str:

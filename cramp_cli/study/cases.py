@@ -4,10 +4,11 @@ import hashlib
 import json
 from collections.abc import Iterator
 from itertools import product
+from math import prod
 from typing import Any, NamedTuple
 
 from cramp_cli.deck.deck import DeckError, read_deck, to_yaml
-from cramp_cli.deck.sweep import Study
+from cramp_cli.deck.sweep import MOST_CASES, Study
 
 DIGITS = 10  # of a case's name
 
@@ -34,6 +35,7 @@ def expand(study: Study) -> list[Case]:
 
     Raises DeckError with the mistakes of all their decks.
     """
+    refuse_too_many(study)
     found, mistakes = {}, []
     for parameters in _combinations(study):
         changes = study.settings | parameters
@@ -49,6 +51,25 @@ def expand(study: Study) -> list[Case]:
     if mistakes:
         raise DeckError(mistakes)
     return list(found.values())
+
+
+def refuse_too_many(study: Study) -> None:
+    """Raise DeckError if a study has more combinations than anybody runs, without making them."""
+    total = prod(_count(entry) for entry in study.vary)
+    if total > MOST_CASES:
+        message = f"makes {total} cases; at most {MOST_CASES} are possible"
+        raise DeckError([study.mistake(("vary",), message)])
+
+
+def _count(entry) -> int:
+    """Return how many variants an entry of `vary` has."""
+    if entry.type == "list":
+        return len(entry.cases)
+    if entry.type == "grid":
+        return prod(map(len, entry.over.values()))
+    if entry.type == "zip":
+        return min(map(len, entry.over.values()))
+    return entry.samples
 
 
 def _combinations(study: Study) -> Iterator[dict[str, Any]]:
