@@ -185,6 +185,8 @@ def between_particles(model, cloud, frame, end) -> TipFrame:
     sides = [
         material_beside(cloud.particles, frame, length, line, lo, hi) for _, lo, hi in cloud.parts
     ]
+    if not sides:  # a tip in free space
+        return frame._replace(line=line)
     above, below = (sum(side) / (0.5 * length * thickness) for side in zip(*sides, strict=True))
     if abs(above + below - length) > LEAK * length:
         return frame._replace(line=line)

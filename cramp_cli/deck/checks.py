@@ -6,6 +6,7 @@ from cramp_cli.deck.assembly import MOST_PIECES
 from cramp_cli.deck.bodies import FIT
 from cramp_cli.deck.crack_checks import crack_mistakes
 from cramp_cli.deck.lattice import Box, nearest_lines
+from cramp_cli.deck.line_checks import line_mistakes
 from cramp_cli.deck.parts import Parts
 from cramp_cli.deck.where import AXES
 from cramp_cli.schema.section import Wrong, unknown
@@ -75,6 +76,7 @@ def geometry_mistakes(parts: Parts) -> Iterator[Wrong]:
     if box is not None:
         yield from _bodies_in_grid(parts, box)
         yield from _planes_on_lines(parts, box)
+    yield from line_mistakes(parts)
     yield from crack_mistakes(parts)
 
 

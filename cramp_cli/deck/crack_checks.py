@@ -22,7 +22,8 @@ def crack_mistakes(parts: Parts) -> Iterator[Wrong]:
         total += pieces
         if total > MOST_PIECES:
             key, total = ("segment",) if crack.segment else (), 0.0
-            message = f"would be cut into {pieces:.3g} pieces (at most {MOST_PIECES} of all cracks)"
+            of_all = "" if pieces > MOST_PIECES else ", all cracks together"
+            message = f"would be cut into {pieces:.3g} pieces (at most {MOST_PIECES}{of_all})"
             yield ("cracks", place, *key), message
     if parts.all_bodies and parts.solids:
         regions = _regions(parts)

@@ -18,6 +18,7 @@ from cramp_cli.deck.events import event_mistakes
 from cramp_cli.deck.files import digests
 from cramp_cli.deck.growth_checks import growth_mistakes
 from cramp_cli.deck.lattice import Box
+from cramp_cli.deck.line_checks import ligament_warnings
 from cramp_cli.deck.loads import AnyLoad
 from cramp_cli.deck.materials import AnyMaterial
 from cramp_cli.deck.overrides import apply_overrides
@@ -183,6 +184,7 @@ def _filled(deck: Deck) -> Deck:
 
 def _warnings(deck: Deck) -> Iterator[Wrong]:
     yield from crack_warnings(parts_of(deck))
+    yield from ligament_warnings(parts_of(deck))
     if deck.solver.may_be_unstable:
         better = deck.solver.strain.replace("-", "+")
         message = f"may grow without bound with {deck.solver.update}; use '{better}'"

@@ -261,7 +261,7 @@ def test_doubts_are_warnings(write):
         "bodies.0.particles_per_cell=1",
         "cracks.straight.segment=5 mm",
         "cracks.straight.start=tip",
-        "cracks.straight.points=[[-0.01, 0.02], [0.03, 0.02]]",
+        "cracks.straight.points=[[-0.003, 0.02], [0.03, 0.02]]",
         "materials.glass.nu=0.48",
         "materials.spare={law: elastic, density: 1, E: 1, nu: 0}",
     ]

@@ -140,7 +140,7 @@ def test_the_good_deck_is_good(tmp_path):
             "cracks.0.arc={center: [0, 0], radius: 1, from: 0, to: 1}",
             "cracks.left.arc: give only one of points, arc, file",
         ),
-        ("cracks.0.points=[[20, 5], [12, 5]]", "cracks.left: lies wholly outside every body"),
+        ("cracks.0.points=[[11.5, 5], [11, 5]]", "cracks.left: lies wholly outside every body"),
         ("cracks.0.points=[[4, 5], [6, 5]]", "cracks.left: lies wholly outside every body"),
         (
             "cracks.0={name: a, arc: {center: [1, 1], radius: 1e-30, from: 0, to: 90}}",
