@@ -49,12 +49,16 @@ def run_deck(path: Path, options: RunOptions) -> Path | None:
     return options.output
 
 
-def resume_folder(folder: Path, options: RunOptions) -> Path:
-    """Go on with the run in a folder, by the deck that it keeps there; return the folder."""
+def resume_folder(folder: Path, options: RunOptions, end_time: str | None = None) -> Path:
+    """Go on with the run in a folder, by the deck that it keeps there; return the folder.
+
+    end_time: another end than that of the deck, which may lie behind the end of a finished run
+    """
     from cramp_cli.output.folder import refuse_no_run
 
     refuse_no_run(folder)
-    options = options._replace(output=folder, resume="must")
+    sets = [f"solver.end_time={end_time}"] if end_time else []
+    options = options._replace(output=folder, resume="must", overrides=sets)
     return run_deck(folder / "resolved.yaml", options)
 
 

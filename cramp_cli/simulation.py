@@ -64,6 +64,8 @@ def simulate(
             first = first or run.first_step_took(perf_counter() - begin)
             wall = perf_counter() - begin - first
             reporter.progress(state.step, state.time, wall, run.headline())
+        if keeper:
+            keeper.at_end(state, run.remember())
         run.last()
     wall = perf_counter() - begin
     if profile:

@@ -40,6 +40,10 @@ def _parser(name: str):
     return parse
 
 
+EndTime = Annotated[
+    str | None,
+    typer.Option("--end-time", metavar="TIME", help="Stop at this time, like '0.2 ms'."),
+]
 Shown = Annotated[Progress, typer.Option(help="How to show progress.")]
 MaxMemory = Annotated[
     int | None,
@@ -98,10 +102,7 @@ def run(
     overwrite: Annotated[
         bool, typer.Option("--overwrite", help="Replace an earlier run in that folder.")
     ] = False,
-    end_time: Annotated[
-        str | None,
-        typer.Option("--end-time", metavar="TIME", help="Stop at this time, like '0.2 ms'."),
-    ] = None,
+    end_time: EndTime = None,
     dry_run: Annotated[
         bool, typer.Option("--dry-run", help="Check and estimate only; write nothing.")
     ] = False,
@@ -137,6 +138,7 @@ def run(
 def resume(
     context: typer.Context,
     path: Run,
+    end_time: EndTime = None,
     threads: Threads = None,
     progress: Shown = Progress.auto,
     max_memory: MaxMemory = None,
@@ -145,7 +147,7 @@ def resume(
     max_wall: MaxWall = None,
     checkpoint_every: CheckpointEvery = "10m",
 ):
-    """Go on with a run that was stopped, killed or failed.
+    """Go on with a run that was stopped, killed or failed; or finished, with a later --end-time.
 
     Rows and frames behind the newest sound checkpoint are cut off: the files become those of a run
     that was never interrupted.
@@ -153,4 +155,4 @@ def resume(
     from cramp_cli.commands import resume_folder
 
     how = _how(context, threads, progress, max_memory, max_disk, profile, max_wall)
-    print(resume_folder(path, how._replace(checkpoint_every=checkpoint_every)))
+    print(resume_folder(path, how._replace(checkpoint_every=checkpoint_every), end_time))

@@ -76,9 +76,10 @@ class RunFolder:
         write_text(self.path / "input.yaml", deck_text)
         write_text(self.path / "resolved.yaml", resolved_text)
 
-    def go_on(self) -> None:
-        """Clear away what would stop or confuse the next part of a run."""
+    def go_on(self, resolved_text: str) -> None:
+        """Clear away what would stop or confuse the next part of a run; keep its end time."""
         self.begun = True
+        write_text(self.path / "resolved.yaml", resolved_text)
         _remove(self.path / STOP)
         _remove(self.path / "failure")
         sweep(self.path)

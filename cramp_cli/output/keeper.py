@@ -8,6 +8,7 @@ from cramp_cli.numerics.cache import source_hash
 from cramp_cli.output.checkpoint import write_checkpoint
 from cramp_cli.output.exits import Stopped
 from cramp_cli.output.manifest import sha256
+from cramp_cli.output.resume import identity
 from cramp_cli.output.stop import Signs
 
 
@@ -22,7 +23,7 @@ class Keeper:
 
     def __init__(self, outputs: Any, signs: Signs, every: tuple, deck_text: str) -> None:
         self._outputs, self._signs, self._every = outputs, signs, every
-        self._identity = {"deck_sha256": sha256(deck_text), "source_hash": source_hash()}
+        self._identity = {"deck_sha256": sha256(identity(deck_text)), "source_hash": source_hash()}
         self._written = monotonic()
 
     def after_step(self, state: Any, remembered: Callable[[], dict]) -> None:
@@ -38,6 +39,10 @@ class Keeper:
             raise Stopped(
                 f"stopped by {why} at {where}; go on with: cramp resume {self._outputs.path}"
             )
+
+    def at_end(self, state: Any, remembered: dict) -> None:
+        """Write the checkpoint from which a finished run goes on when its end is put off."""
+        self._write(state, remembered)
 
     def _due(self, step: int) -> bool:
         steps, seconds = self._every

@@ -1,5 +1,6 @@
 """Where a run begins: at its start, or at the newest sound checkpoint of the same deck."""
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -12,6 +13,7 @@ from cramp_cli.output.manifest import sha256
 
 NEVER, AUTO, MUST = "never", "auto", "must"
 MOST_SHOWN = 3
+END = re.compile(r"(^solver:.*?\bend_time:) *([^,}\s]+)", re.MULTILINE | re.DOTALL)
 ANOTHER_PROGRAM = (
     "the program has changed since that checkpoint was written: what follows may differ from an "
     "uninterrupted run"
@@ -28,11 +30,24 @@ class Start(NamedTuple):
 
 
 def is_finished(folder: Path, text: str) -> bool:
-    """Tell whether a folder holds a run of this resolved deck that came to its end."""
+    """Tell whether a folder holds a run of this resolved deck that came to its end.
+
+    A finished run whose end is put off goes on from there; raises FolderError for another change.
+    """
     if run_status(folder) != "done":
         return False
-    refuse_changed(folder, text)
-    return True
+    before = refuse_changed(folder, text)
+    return end_of(text) <= end_of(before)
+
+
+def identity(text: str) -> str:
+    """Return a resolved deck without its end time, which changes nothing of what comes before."""
+    return END.sub(r"\1", text)
+
+
+def end_of(text: str) -> float:
+    """Return the end time (s) of a resolved deck."""
+    return float(END.search(text)[2])
 
 
 def find_start(folder: Path, mode: str, text: str, state: Any) -> Start:
@@ -46,9 +61,11 @@ def find_start(folder: Path, mode: str, text: str, state: Any) -> Start:
         return Start(state)
     remarks = []
     if run_status(folder) is not None and (folder / "resolved.yaml").exists():
-        refuse_changed(folder, text)
+        sooner = end_of(text) < end_of(refuse_changed(folder, text))
         for checkpoint, wrong in sound_checkpoints(folder, state):
             if checkpoint is not None:
+                if sooner:
+                    _refuse_passed(folder, checkpoint.state.time, end_of(text))
                 return _start(folder, checkpoint, text, remarks)
             remarks.append(("warning", f"{wrong}; an older one is tried"))
     if mode == MUST:
@@ -57,16 +74,25 @@ def find_start(folder: Path, mode: str, text: str, state: Any) -> Start:
     return Start(state, remarks=(*remarks, ("info", "no checkpoint: begins at time zero")))
 
 
-def refuse_changed(folder: Path, text: str) -> None:
-    """Raise FolderError if a run's folder holds another resolved deck than `text`."""
+def refuse_changed(folder: Path, text: str) -> str:
+    """Return the resolved deck of a run's folder; raise FolderError if it is another than `text`.
+
+    The end time may be another one.
+    """
     before = (folder / "resolved.yaml").read_text(encoding="utf-8")
-    if before != text:
+    if identity(before) != identity(text):
         raise _changed(folder, before, text)
+    return before
+
+
+def _refuse_passed(folder: Path, time: float, end: float) -> None:
+    if time > end:
+        raise FolderError(f"{folder}: is at t = {time:.6g} s already, behind the end asked for")
 
 
 def _start(folder: Path, checkpoint, text: str, remarks: list) -> Start:
     notes = checkpoint.notes
-    if notes["deck_sha256"] != sha256(text):
+    if notes["deck_sha256"] != sha256(identity(text)):
         raise FolderError(f"{folder}/resolved.yaml: is not the deck of the checkpoints")
     state = checkpoint.state
     where = f"goes on from the checkpoint of step {state.step}, t = {state.time:.6g} s"

@@ -58,7 +58,7 @@ class RunOutputs:
         self._before = places["tables"] if places else {}  # tables to go on with
         self.remarks: list[str] = []  # on files that could not be taken up
         if places:
-            folder.go_on()
+            folder.go_on(resolved_text)
             self._take_up(places)
         self._manifest = Manifest(self.path, deck_text, threads, places, files)
         if not places:

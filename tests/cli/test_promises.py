@@ -151,6 +151,29 @@ def test_1_a_changed_deck_is_refused_by_the_name_of_the_key(here):
     assert cramp("run", "plate.yaml", "--resume", "must").returncode == 0
 
 
+def test_1_a_finished_run_goes_on_to_a_later_end(here):
+    """As if that had been its end from the start: rows of the first end are cut off again."""
+    every = ("-s", "output.every=3 us", "-s", "output.history_every=1 us")
+    assert cramp("run", "plate.yaml", "-o", "whole.run", *every).returncode == 0
+    assert cramp("run", "plate.yaml", "--end-time", "11 us", *every).returncode == 0
+    assert cramp("resume", "plate.run", "--end-time", "20 us").returncode == 0
+    assert differences(here / "whole.run", here / "plate.run") == []
+    again = cramp("resume", "plate.run")
+    assert (again.returncode, "is done already" in again.stderr) == (0, True)
+    back = cramp("resume", "plate.run", "--end-time", "5 us")
+    assert (back.returncode, "is done already" in back.stderr) == (0, True)
+
+
+def test_1_a_stopped_run_does_not_go_back(here):
+    every = ("--checkpoint-every", STEPS)
+    assert cramp("run", "plate.yaml", *every).returncode == 0
+    record = manifest(here / "plate.run") | {"status": "stopped"}
+    (here / "plate.run/manifest.json").write_text(json.dumps(record))
+    back = cramp("resume", "plate.run", "--end-time", "5 us")
+    assert back.returncode == 4
+    assert "behind the end asked for" in back.stderr
+
+
 def test_1_a_deck_changed_in_the_folder_is_refused(here):
     run = run_in_pieces(here / "plate.yaml", here / "plate.run")
     record = manifest(run) | {"status": "stopped"}
