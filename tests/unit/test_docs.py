@@ -4,6 +4,7 @@ import ast
 import re
 import subprocess
 import sys
+from html.parser import HTMLParser
 from pathlib import Path
 
 import pytest
@@ -151,11 +152,51 @@ def test_the_first_mistakes_of_a_user_are_told_as_shown(tmp_path):
     assert told in read(DOCS / "start.md")
 
 
-def test_the_pages_become_html_without_a_warning(tmp_path):
-    words = ["-E", "-W", "--keep-going", "-q", str(DOCS), str(tmp_path)]
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    """The built pages, made without a warning."""
+    folder = tmp_path_factory.mktemp("site")
+    words = ["-E", "-W", "--keep-going", "-q", str(DOCS), str(folder)]
     done = subprocess.run([sys.executable, "-m", "sphinx", *words], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
-    assert (tmp_path / "index.html").exists()
+    return folder
+
+
+class Reader(HTMLParser):
+    """What a browser shows of a page, without code, and what it would fetch for it."""
+
+    def __init__(self, page):
+        super().__init__()
+        self.shown, self.fetched, self.formulas, self.open = "", [], 0, []
+        self.feed(page.read_text(encoding="utf-8"))
+
+    def handle_starttag(self, tag, attributes):
+        said = dict(attributes)
+        self.formulas += tag == "math"
+        if tag in ("script", "link", "img"):
+            self.fetched += [said[key] for key in ("src", "href") if key in said]
+        if tag in ("script", "style", "pre", "code"):
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        if self.open and tag == self.open[-1]:
+            self.open.pop()
+
+    def handle_data(self, data):
+        self.shown += "" if self.open else data
+
+
+FORMULA = re.compile(r"\$\$.+?\$\$|\$[^$\n]+?(?:\n[^$\n]+?)?\$", re.DOTALL)
+
+
+@pytest.mark.parametrize("page", sorted(DOCS.glob("theory/*.md")), ids=lambda page: page.stem)
+def test_formulas_are_drawn_by_the_browser_alone(site, page):
+    """As MathML: no LaTeX is left over, and nothing comes from another place."""
+    built = Reader(site / "theory" / f"{page.stem}.html")
+    code = re.compile(r"```.*?```|`[^`]*`", re.DOTALL)
+    assert built.formulas == len(FORMULA.findall(code.sub("", read(page)))) > 0
+    assert re.findall(r"\\\w+|\\\W|\$", built.shown) == []
+    assert [name for name in built.fetched if "//" in name] == []
 
 
 def test_the_citation_names_this_version():
