@@ -1,6 +1,5 @@
 """How Sphinx makes the pages: `make html`; a warning is an error."""
 
-import re
 from html import escape
 
 from latex2mathml.converter import convert
@@ -24,11 +23,12 @@ html_copy_source = False
 html_show_sphinx = False
 
 
-# What the converter would leave as it is: braces with a size, an underscore within a word.
-UNKNOWN = (
-    (r"\\(?:[bB]igg?)?\{", r"\\lbrace "),
-    (r"\\(?:[bB]igg?)?\}", r"\\rbrace "),
-    (r"\\_", "_"),
+# What the converter leaves as it is, and what browsers leave out, before and behind the conversion.
+BEFORE = ((r"\{", r"\lbrace "), (r"\}", r"\rbrace "), (r"\_", "_"))
+BEHIND = (
+    (">\\lbrace<", ">{<"),
+    (">\\rbrace<", ">}<"),
+    ('mathvariant="bold-italic"', 'style="font-weight: bold"'),
 )
 
 
@@ -47,13 +47,17 @@ def _inline(page, node):
 def _block(page, node):
     from docutils.nodes import SkipNode
 
-    page.body.append(f'<div class="math">{_mathml(node.astext(), "block")}</div>')
+    page.body.append(f'<div class="formula">{_mathml(node.astext(), "block")}</div>')
     raise SkipNode
 
 
 def _mathml(latex, display):
     """Return a formula; what it was made from stands beside it for whoever copies it."""
-    plain = latex
-    for written, meant in UNKNOWN:
-        plain = re.sub(written, meant, plain)
-    return convert(plain, display=display).replace("<math ", f'<math alttext="{escape(latex)}" ', 1)
+    made = convert(_replaced(latex, BEFORE), display=display)
+    return _replaced(made, BEHIND).replace("<math ", f'<math alttext="{escape(latex)}" ', 1)
+
+
+def _replaced(text, pairs):
+    for old, new in pairs:
+        text = text.replace(old, new)
+    return text
