@@ -35,9 +35,9 @@ def outline_of(deck, number, width):
     """
     from shapely import get_parts, snap, union_all
 
-    own = _uncovered(deck, number)
+    own = uncovered(deck, number)
     alike = [
-        _uncovered(deck, n)
+        uncovered(deck, n)
         for n, other in enumerate(deck.bodies)
         if n != number and other.rigid == deck.bodies[number].rigid
     ]
@@ -47,12 +47,33 @@ def outline_of(deck, number, width):
     return _with_images(union_all(mine), deck, near).simplify(near)
 
 
-def _uncovered(deck, number):
+def uncovered(deck, number):
     """Return the outline of a body without what later bodies and holes cover."""
-    left = deck.bodies[number].shape.outline()
-    for later in deck.bodies[number + 1 :]:
-        left = left - later.shape.outline()
-    return left
+    from shapely import union_all
+
+    own = deck.bodies[number].shape
+    near = [body.shape for body in deck.bodies[number + 1 :] if _may_meet(own, body.shape)]
+    if not near:
+        return own.outline()
+    return own.outline() - union_all([shape.outline() for shape in near])
+
+
+def _may_meet(one, other) -> bool:
+    """Return whether the boxes around two shapes have an area in common."""
+    (low, high), (least, most) = one.bounds(), other.bounds()
+    return all(low[d] < most[d] and least[d] < high[d] for d in range(2))
+
+
+def rings_of(region) -> list:
+    """Return the closed lines around a region with the region at their left, (k + 1, 2) each (m).
+
+    Lines and points that are left where shapes only touch have no area and no ring.
+    """
+    from shapely import get_coordinates, get_parts
+    from shapely.geometry.polygon import orient
+
+    parts = (orient(part) for part in get_parts(region) if part.area > 0.0)
+    return [get_coordinates(ring) for part in parts for ring in (part.exterior, *part.interiors)]
 
 
 def _with_images(outline, deck, near):

@@ -1,0 +1,138 @@
+"""Where the particles of a body are at the start, and how much of it each one carries.
+
+Cells are cut into equal boxes. A box inside the body makes a particle at its centre. One that the
+border of the body passes makes a particle of the part inside: with its area, at its centroid. So
+mass and first moment of a body are those of its shape, wherever it lies in the grid.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from cramp_cli.build.coverage import Coverage, coverage
+from cramp_cli.build.surface import outline_of, rings_of, settled, uncovered
+from cramp_cli.deck.deck import DeckError
+
+ON_PLANE = 1e-6  # cells
+# A part smaller than this share of a full particle goes to its neighbour: a light particle alone
+# in a cell would be thrown about by its stress, and ask for time steps of its own.
+LEAST = 0.25
+ALIKE = 1e-6  # neighbours whose shares differ by less are as full as each other
+WIDEST = 0.5  # cells; half size of a particle at most, or it would see nodes that no function has
+SIDES = np.array([[1, 0], [-1, 0], [0, 1], [0, -1]])
+DIAGONALS = np.array([[1, 1], [-1, 1], [1, -1], [-1, -1]])
+
+
+class Seeds(NamedTuple):
+    """The particles of a body at the start."""
+
+    position: np.ndarray  # (n, 2) m
+    share: np.ndarray  # (n,) volume, by that of a full particle at the same place
+    half: np.ndarray  # (n, 2) half size along each axis, in cells
+
+
+def seed_body(deck, lattice, number: int) -> Seeds:
+    """Return the particles of a body; those of a rigid one lie along its outline.
+
+    What a later body covers is left to that body.
+
+    Raises DeckError if there are none.
+    """
+    body = deck.bodies[number]
+    if body.hole:
+        return Seeds(np.zeros((0, 2)), np.zeros(0), np.zeros((0, 2)))
+    seeds = _of_rigid(deck, lattice, number) if body.rigid else _of_solid(deck, lattice, number)
+    if not len(seeds.position):
+        message = "holds no particle: it is smaller than a cell, or later bodies cover it"
+        raise DeckError([deck.mistake(("bodies", number, "shape"), message)])
+    return seeds
+
+
+def _of_solid(deck, lattice, number) -> Seeds:
+    per_cell = deck.bodies[number].particles_per_cell
+    rings = rings_of(uncovered(deck, number))
+    box = lattice.width / per_cell
+    if not rings:
+        return Seeds(np.zeros((0, 2)), np.zeros(0), np.zeros((0, 2)))
+    parts = coverage([(np.asarray(ring) - lattice.lower) / box for ring in rings])
+    return gathered(parts, lattice, per_cell)
+
+
+def gathered(parts: Coverage, lattice, per_cell: int) -> Seeds:
+    """Return a particle for every box, but none for those that hold next to nothing."""
+    parts, low, high = _without_slivers(parts)
+    centre = parts.first / parts.area[:, None]
+    spread = np.maximum(parts.second / parts.area[:, None] - centre**2, 0.0)
+    # The box with the same second moment; the part itself, if it is a box. It keeps to the boxes
+    # it comes from: within a cell the mean slope of a function is then that over the part.
+    half = np.minimum(np.sqrt(3.0 * spread), np.minimum(centre - low, high - centre))
+    half = np.clip(half / per_cell, ON_PLANE, WIDEST)
+    whole = (parts.area == 1.0) & np.all(high - low == 1.0, axis=1)
+    half[whole] = 0.5 / per_cell
+    position = lattice.lower + lattice.width / per_cell * (parts.box + centre)
+    return Seeds(position, parts.area, half)
+
+
+def _without_slivers(parts: Coverage) -> tuple[Coverage, np.ndarray, np.ndarray]:
+    """Return the boxes with all that is less than LEAST given to the fullest box beside it.
+
+    Boxes as full as each other take equal parts. A sliver with nothing but slivers around it stays.
+
+    returns: and from where to where each reaches (n, 2), from its own corner, in boxes
+    """
+    area, first, second = parts.area.copy(), parts.first.copy(), parts.second.copy()
+    low, high = np.zeros_like(first), np.ones_like(first)
+    gone = np.zeros(len(area), dtype=bool)
+    for sliver in np.flatnonzero(parts.area < LEAST):
+        takers = _takers(parts, sliver)
+        gone[sliver] = len(takers) > 0
+        for taker in takers:
+            way = parts.box[sliver] - parts.box[taker]
+            a, f, s = (of[sliver] / len(takers) for of in parts[1:])
+            area[taker] += a
+            first[taker] += f + way * a
+            second[taker] += s + 2.0 * way * f + way**2 * a
+            low[taker] = np.minimum(low[taker], way)
+            high[taker] = np.maximum(high[taker], way + 1.0)
+    kept = ~gone
+    box = parts.box[kept]
+    return Coverage(box, area[kept], first[kept], second[kept]), low[kept], high[kept]
+
+
+def _takers(parts: Coverage, sliver: int) -> list[int]:
+    """Return the fullest boxes at the sides of a sliver, else at its corners; none: all slivers."""
+    for ways in (SIDES, DIAGONALS):
+        beside = [_at(parts.box, parts.box[sliver] + way) for way in ways]
+        beside = [n for n in beside if n >= 0 and parts.area[n] >= LEAST]
+        if beside:
+            most = max(parts.area[n] for n in beside)
+            return [n for n in beside if parts.area[n] > most - ALIKE]
+    return []
+
+
+def _at(boxes, wanted) -> int:
+    """Return which of the boxes, row by row, is at a column and row, or -1."""
+    low, high = np.searchsorted(boxes[:, 1], [wanted[1], wanted[1] + 1])
+    n = low + int(np.searchsorted(boxes[low:high, 0], wanted[0]))
+    return n if n < high and boxes[n, 0] == wanted[0] else -1
+
+
+def _of_rigid(deck, lattice, number) -> Seeds:
+    """Return the centres of the boxes inside, those at the border moved to touch the outline."""
+    body, width = deck.bodies[number], lattice.width
+    per_cell = body.particles_per_cell
+    low, high = (np.asarray(corner) for corner in body.shape.bounds())
+    first = np.floor((low - lattice.lower) / width - ON_PLANE).astype(int)
+    last = np.ceil((high - lattice.lower) / width + ON_PLANE).astype(int)
+    axes = [
+        lattice.lower[d]
+        + width / per_cell * (np.arange(per_cell * first[d], per_cell * last[d]) + 0.5)
+        for d in range(2)
+    ]
+    points = np.stack([m.ravel() for m in np.meshgrid(*axes)], axis=1)
+    points = points[body.shape.contains(points)]
+    for later in deck.bodies[number + 1 :]:
+        points = points[~later.shape.contains(points)]
+    points = settled(points, outline_of(deck, number, width), 0.5 * width / per_cell)
+    half = np.full((len(points), 2), 0.5 / per_cell)
+    return Seeds(points, np.ones(len(points)), half)
