@@ -9,7 +9,7 @@ from cramp_cli.build.covered import crack_line
 from cramp_cli.build.events import EventList
 from cramp_cli.build.growth import build_propagation
 from cramp_cli.build.laws import law_of
-from cramp_cli.build.seeds import seed_body
+from cramp_cli.build.seeds import Seeds, are_sized, seed_body
 from cramp_cli.contact.adhesion import no_bonds
 from cramp_cli.cracks.tips import Fracture
 from cramp_cli.deck.deck import Deck, DeckError
@@ -21,6 +21,7 @@ from cramp_cli.shapes.cpdi import ConvectedDomain
 from cramp_cli.shapes.linear import Linear
 from cramp_cli.shapes.ring import Ring
 from cramp_cli.shapes.shape import is_ring
+from cramp_cli.shapes.sized import Sized
 from cramp_cli.shapes.ugimp import UniformGimp
 from cramp_cli.state.bands import band_starts, sorted_by_cell
 from cramp_cli.state.growth import make_growth
@@ -55,7 +56,7 @@ def build(deck: Deck) -> tuple[Model, State]:
     lattice = build_lattice(deck)
     seeds = [seed_body(deck, lattice, number) for number in range(len(deck.bodies))]
     geometry, settings = build_geometry(deck), deck.fracture
-    blocks, particles, half = _fill(deck, lattice, geometry, seeds)
+    blocks, particles, half, reach = _fill(deck, lattice, geometry, seeds)
     paths = _paths(deck, lattice)
     solid = (lattice, geometry, particles, half, blocks, paths)
     events = EventList(deck)
@@ -76,6 +77,8 @@ def build(deck: Deck) -> tuple[Model, State]:
         conditions=conditions,
         groups=build_groups(deck),
         between_bodies=between,
+        half=half if are_sized(seeds) else None,
+        reach=reach if are_sized(seeds) else None,
         leaving=deck.solver.leaving,
         tip_nodes=_smooth_tips(blocks) if deck.solver.tips == "smooth" else None,
         fracture=Fracture(
@@ -113,9 +116,14 @@ def build_geometry(deck: Deck):
     return PLANES[deck.analysis](deck.thickness)
 
 
-def build_shape(deck: Deck, lattice: Lattice, half):
-    """Return the shape function of particles with half sizes `half` (cells)."""
+def build_shape(deck: Deck, lattice: Lattice, half, *, sized: bool):
+    """Return the shape function of particles with half sizes `half` (cells).
+
+    sized: some particles are smaller or larger than that
+    """
     shape = SHAPES[deck.solver.shape](half)
+    if sized and isinstance(shape, UniformGimp | ConvectedDomain):
+        shape = Sized(shape, half)
     if deck.analysis != "axisymmetric":
         return shape
     return Ring(shape, half, round(-lattice.lower[0] / lattice.width), lattice.nodes[0])
@@ -151,10 +159,12 @@ def _smooth_tips(blocks) -> TipNodes:
     return TipNodes(FRONT - sum(half) / len(half), RAMP)
 
 
-def _fill(deck: Deck, lattice: Lattice, geometry, seeds) -> tuple[tuple, Particles, np.ndarray]:
+def _fill(
+    deck: Deck, lattice: Lattice, geometry, seeds
+) -> tuple[tuple, Particles, np.ndarray, np.ndarray]:
     """Return blocks of one material and particle size, and their particles sorted by cell.
 
-    returns: and half sizes of the particles (n, 2), in cells
+    returns: and half size and reach of all particles (n, 2), as in Seeds
     """
     kinds = sorted({(b.material or RIGID, b.particles_per_cell) for b in deck.bodies if not b.hole})
     blocks, parts, start = [], [], 0
@@ -164,26 +174,25 @@ def _fill(deck: Deck, lattice: Lattice, geometry, seeds) -> tuple[tuple, Particl
             for n, b in enumerate(deck.bodies)
             if not b.hole and (b.material or RIGID, b.particles_per_cell) == (material, per_cell)
         ]
-        points, share, half = (
-            np.concatenate(c) for c in zip(*(seeds[n] for n in bodies), strict=True)
-        )
+        mine = Seeds(*map(np.concatenate, zip(*(seeds[n] for n in bodies), strict=True)))
         owner = np.concatenate([np.full(len(seeds[n].share), n) for n in bodies])
-        by_place = np.lexsort(points.T)
-        order = by_place[sorted_by_cell(lattice, points[by_place])]
+        by_place = np.lexsort(mine.position.T)
+        order = by_place[sorted_by_cell(lattice, mine.position[by_place])]
+        points, share, half, reach = (column[order] for column in mine)
         law, density = None, 0.0  # of a rigid body
         if material != RIGID:
             law, density = law_of(deck.materials[material]), deck.materials[material].density
-        shape = build_shape(deck, lattice, (0.5 / per_cell,) * 2)
+        shape = build_shape(deck, lattice, (0.5 / per_cell,) * 2, sized=are_sized(seeds))
         blocks.append(Block(start, start + len(points), law, shape, material, density))
-        volume = (lattice.width / per_cell) ** 2 * depth(geometry, points[order, 0]) * share[order]
-        parts.append((points[order], owner[order], density * volume, volume, half[order]))
+        volume = (lattice.width / per_cell) ** 2 * depth(geometry, points[:, 0]) * share
+        parts.append((points, owner[order], density * volume, volume, half, reach))
         start += len(points)
-    *columns, half = (np.concatenate(column) for column in zip(*parts, strict=True))
+    *columns, half, reach = (np.concatenate(column) for column in zip(*parts, strict=True))
     rings, columns_of_laws = is_ring(blocks[0].shape), max(memory(b.law) for b in blocks if b.law)
     particles = particles_at(*columns, memory=columns_of_laws, rings=rings)
     for number, body in enumerate(deck.bodies):
         _set_moving(particles, number, body)
-    return tuple(blocks), particles, half
+    return tuple(blocks), particles, half, reach
 
 
 def _set_moving(particles: Particles, number: int, body) -> None:

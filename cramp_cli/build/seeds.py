@@ -18,6 +18,7 @@ ON_PLANE = 1e-6  # cells
 # in a cell would be thrown about by its stress, and ask for time steps of its own.
 LEAST = 0.25
 ALIKE = 1e-6  # neighbours whose shares differ by less are as full as each other
+BOX = 1e-3  # a part whose area differs by less from that of its box is one
 WIDEST = 0.5  # cells; half size of a particle at most, or it would see nodes that no function has
 SIDES = np.array([[1, 0], [-1, 0], [0, 1], [0, -1]])
 DIAGONALS = np.array([[1, 1], [-1, 1], [1, -1], [-1, -1]])
@@ -29,6 +30,7 @@ class Seeds(NamedTuple):
     position: np.ndarray  # (n, 2) m
     share: np.ndarray  # (n,) volume, by that of a full particle at the same place
     half: np.ndarray  # (n, 2) half size along each axis, in cells
+    reach: np.ndarray  # (n, 2) half axes of the ellipse that touches other bodies, in cells
 
 
 def seed_body(deck, lattice, number: int) -> Seeds:
@@ -40,7 +42,7 @@ def seed_body(deck, lattice, number: int) -> Seeds:
     """
     body = deck.bodies[number]
     if body.hole:
-        return Seeds(np.zeros((0, 2)), np.zeros(0), np.zeros((0, 2)))
+        return _none()
     seeds = _of_rigid(deck, lattice, number) if body.rigid else _of_solid(deck, lattice, number)
     if not len(seeds.position):
         message = "holds no particle: it is smaller than a cell, or later bodies cover it"
@@ -50,12 +52,39 @@ def seed_body(deck, lattice, number: int) -> Seeds:
 
 def _of_solid(deck, lattice, number) -> Seeds:
     per_cell = deck.bodies[number].particles_per_cell
-    rings = rings_of(uncovered(deck, number))
-    box = lattice.width / per_cell
+    region, box = uncovered(deck, number), lattice.width / per_cell
+    rings = rings_of(region)
     if not rings:
-        return Seeds(np.zeros((0, 2)), np.zeros(0), np.zeros((0, 2)))
-    parts = coverage([(np.asarray(ring) - lattice.lower) / box for ring in rings])
-    return gathered(parts, lattice, per_cell)
+        return _none()
+    seeds = gathered(coverage([(ring - lattice.lower) / box for ring in rings]), lattice, per_cell)
+    return (
+        seeds if deck.contact.bodies is None else _touching(seeds, region, lattice.width, per_cell)
+    )
+
+
+def _none() -> Seeds:
+    return Seeds(np.zeros((0, 2)), np.zeros(0), np.zeros((0, 2)), np.zeros((0, 2)))
+
+
+def are_sized(seeds) -> bool:
+    """Return whether some particle is not full, or has a sliver beside it."""
+    return any(np.any(one.share != 1.0) for one in seeds)
+
+
+def _touching(seeds: Seeds, region, width: float, per_cell: int) -> Seeds:
+    """Return particles of which those that are no boxes touch others with a circle.
+
+    It is inscribed in the outline, which so lies where it is. width: of a cell (m)
+    """
+    import shapely
+
+    boxes = 4.0 * per_cell**2 * seeds.half.prod(axis=1)
+    odd = np.flatnonzero(np.abs(boxes - seeds.share) > BOX)
+    outline, reach = region.boundary, seeds.reach.copy()
+    shapely.prepare(outline)
+    away = shapely.distance(outline, shapely.points(seeds.position[odd])) / width
+    reach[odd] = np.maximum(away, ON_PLANE)[:, None]
+    return seeds._replace(reach=reach)
 
 
 def gathered(parts: Coverage, lattice, per_cell: int) -> Seeds:
@@ -70,7 +99,7 @@ def gathered(parts: Coverage, lattice, per_cell: int) -> Seeds:
     whole = (parts.area == 1.0) & np.all(high - low == 1.0, axis=1)
     half[whole] = 0.5 / per_cell
     position = lattice.lower + lattice.width / per_cell * (parts.box + centre)
-    return Seeds(position, parts.area, half)
+    return Seeds(position, parts.area, half, half)
 
 
 def _without_slivers(parts: Coverage) -> tuple[Coverage, np.ndarray, np.ndarray]:
@@ -135,4 +164,4 @@ def _of_rigid(deck, lattice, number) -> Seeds:
         points = points[~later.shape.contains(points)]
     points = settled(points, outline_of(deck, number, width), 0.5 * width / per_cell)
     half = np.full((len(points), 2), 0.5 / per_cell)
-    return Seeds(points, np.ones(len(points)), half)
+    return Seeds(points, np.ones(len(points)), half, half)

@@ -50,10 +50,10 @@ def find_normals(
 ):
     """Find normal and separation of all pairs; a pair without a normal is left apart.
 
-    half: (n,) half sides of the particles (m); kind: of fitted normals; rigid: (groups,) 1 for
-    rigid bodies, their outlines, and which way they have gone (groups, dim), m; flat: (nodes, dim)
-    1 along the normals of symmetry planes through a node, along which no normal points;
-    lattice: lower corner (m) and width (m)
+    half: (n, 2) half axes of the particle of each number (m); kind: of fitted normals; rigid:
+    (groups,) 1 for rigid bodies, their outlines, and which way they have gone (groups, dim), m;
+    flat: (nodes, dim) 1 along the normals of symmetry planes through a node, along which no normal
+    points; lattice: lower corner (m) and width (m)
     """
     lower, width = lattice
     for i in range(pairs.used[0]):
