@@ -14,9 +14,13 @@ from cramp_cli.build.surface import outline_of, rings_of, settled, uncovered
 from cramp_cli.deck.deck import DeckError
 
 ON_PLANE = 1e-6  # cells
-# A part smaller than this share of a full particle goes to its neighbour: a light particle alone
-# in a cell would be thrown about by its stress, and ask for time steps of its own.
-LEAST = 0.25
+# A part smaller than this share of a full particle goes to its neighbour. What is alone in a cell,
+# over a share f of it, is a spring of stiffness f with a mass of f^2/2 for a node: it asks for a
+# time step in proportion to sqrt(f). From 0.3 on the cells themselves ask for none that is longer
+# (measured: usl- at cfl 0.5, usavg+ at 0.8). With one particle along a cell that is the limit, or
+# particles would become larger than a cell.
+LEAST = 0.6
+LEAST_WIDTH = 0.3  # cells
 ALIKE = 1e-6  # neighbours whose shares differ by less are as full as each other
 BOX = 1e-3  # a part whose area differs by less from that of its box is one
 WIDEST = 0.5  # cells; half size of a particle at most, or it would see nodes that no function has
@@ -89,7 +93,8 @@ def _touching(seeds: Seeds, region, width: float, per_cell: int) -> Seeds:
 
 def gathered(parts: Coverage, lattice, per_cell: int) -> Seeds:
     """Return a particle for every box, but none for those that hold next to nothing."""
-    parts, low, high = _without_slivers(parts)
+    least = min(LEAST, LEAST_WIDTH * per_cell)
+    parts, low, high = _without_slivers(parts, least)
     centre = parts.first / parts.area[:, None]
     spread = np.maximum(parts.second / parts.area[:, None] - centre**2, 0.0)
     # The box with the same second moment; the part itself, if it is a box. It keeps to the boxes
@@ -102,8 +107,8 @@ def gathered(parts: Coverage, lattice, per_cell: int) -> Seeds:
     return Seeds(position, parts.area, half, half)
 
 
-def _without_slivers(parts: Coverage) -> tuple[Coverage, np.ndarray, np.ndarray]:
-    """Return the boxes with all that is less than LEAST given to the fullest box beside it.
+def _without_slivers(parts: Coverage, least: float) -> tuple[Coverage, np.ndarray, np.ndarray]:
+    """Return the boxes with all that is less than `least` given to the fullest box beside it.
 
     Boxes as full as each other take equal parts. A sliver with nothing but slivers around it stays.
 
@@ -112,8 +117,8 @@ def _without_slivers(parts: Coverage) -> tuple[Coverage, np.ndarray, np.ndarray]
     area, first, second = parts.area.copy(), parts.first.copy(), parts.second.copy()
     low, high = np.zeros_like(first), np.ones_like(first)
     gone = np.zeros(len(area), dtype=bool)
-    for sliver in np.flatnonzero(parts.area < LEAST):
-        takers = _takers(parts, sliver)
+    for sliver in np.flatnonzero(parts.area < least):
+        takers = _takers(parts, sliver, least)
         gone[sliver] = len(takers) > 0
         for taker in takers:
             way = parts.box[sliver] - parts.box[taker]
@@ -128,11 +133,11 @@ def _without_slivers(parts: Coverage) -> tuple[Coverage, np.ndarray, np.ndarray]
     return Coverage(box, area[kept], first[kept], second[kept]), low[kept], high[kept]
 
 
-def _takers(parts: Coverage, sliver: int) -> list[int]:
+def _takers(parts: Coverage, sliver: int, least: float) -> list[int]:
     """Return the fullest boxes at the sides of a sliver, else at its corners; none: all slivers."""
     for ways in (SIDES, DIAGONALS):
         beside = [_at(parts.box, parts.box[sliver] + way) for way in ways]
-        beside = [n for n in beside if n >= 0 and parts.area[n] >= LEAST]
+        beside = [n for n in beside if n >= 0 and parts.area[n] >= least]
         if beside:
             most = max(parts.area[n] for n in beside)
             return [n for n in beside if parts.area[n] > most - ALIKE]
