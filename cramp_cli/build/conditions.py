@@ -258,7 +258,7 @@ class _Builder:
             mine = (chosen >= block.lo) & (chosen < block.hi)
             if mine.any():
                 force = share[mine, None] * each
-                self.forces.append(ParticleForce(chosen[mine], force, block.shape, signal))
+                self.forces.append(ParticleForce(chosen[mine], force, block.shape, signal, number))
         self._spoil(self.particles.origin[chosen], "a loaded particle")
 
     def _chosen(self, load) -> tuple[np.ndarray, np.ndarray]:
@@ -293,7 +293,7 @@ class _Builder:
             if load.pressure is not None:
                 stress[axis] = -pieces.sign[0] * load.pressure
             corners = self.surface.corners(block, pieces, axis, at, stress)
-            self.tractions.append(Traction(corners, block.shape, signal))
+            self.tractions.append(Traction(corners, block.shape, signal, number))
         self._spoil(self.particles.origin[candidates], "a loaded face")
 
     def add_gravity(self, number, load):

@@ -13,7 +13,8 @@ import numpy as np
 
 from cramp_cli.boundary.traction import Faces
 from cramp_cli.build.coverage import snapped
-from cramp_cli.build.surface import rings_of, uncovered
+from cramp_cli.build.surface import rings_of
+from cramp_cli.deck.regions import Regions
 from cramp_cli.materials.geometry import PlaneStress, depth
 from cramp_cli.materials.law import confined_modulus, shear_modulus
 from cramp_cli.shapes.linear import Linear
@@ -36,14 +37,14 @@ class Surface:
     """Finds what conditions on a part of the bodies act on."""
 
     def __init__(self, deck, lattice, geometry, particles, blocks, half):
-        self.deck, self.bodies, self.lattice = deck, deck.bodies, lattice
+        self.bodies, self.lattice = deck.bodies, lattice
         self.width, self.geometry = lattice.width, geometry
         self.particles, self.blocks, self.half = particles, blocks, half
         full = np.concatenate([np.full(b.hi - b.lo, b.shape.half[0] * 2.0) for b in blocks])
         deep = depth(geometry, particles.origin[:, 0])
         self.share = particles.volume / ((full * lattice.width) ** 2 * deep)  # of a full particle
         self.share[np.abs(self.share - 1.0) < SAME] = 1.0
-        self._rings = {}
+        self._regions, self._rings = Regions(deck.bodies), {}
 
     @cached_property
     def solids(self) -> list[int]:
@@ -110,7 +111,7 @@ class Surface:
     def rings(self, body) -> list:
         """Return the outline of a body without what later ones cover: closed lines."""
         if body not in self._rings:
-            self._rings[body] = rings_of(uncovered(self.deck, body))
+            self._rings[body] = rings_of(self._regions.left(body))
         return self._rings[body]
 
     def _owners(self, body, places) -> np.ndarray:

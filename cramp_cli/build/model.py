@@ -9,7 +9,7 @@ from cramp_cli.build.covered import crack_line
 from cramp_cli.build.events import EventList
 from cramp_cli.build.growth import build_propagation
 from cramp_cli.build.laws import law_of
-from cramp_cli.build.seeds import Seeds, are_sized, seed_body
+from cramp_cli.build.seeds import Seeds, are_sized, seed_bodies
 from cramp_cli.contact.adhesion import no_bonds
 from cramp_cli.cracks.tips import Fracture
 from cramp_cli.deck.deck import Deck, DeckError
@@ -54,7 +54,7 @@ def build(deck: Deck) -> tuple[Model, State]:
     Raises DeckError for what can not be: a body without particles, a load on nothing.
     """
     lattice = build_lattice(deck)
-    seeds = [seed_body(deck, lattice, number) for number in range(len(deck.bodies))]
+    seeds = seed_bodies(deck, lattice)
     geometry, settings = build_geometry(deck), deck.fracture
     blocks, particles, half, reach = _fill(deck, lattice, geometry, seeds)
     paths = _paths(deck, lattice)

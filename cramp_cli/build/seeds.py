@@ -8,10 +8,12 @@ mass and first moment of a body are those of its shape, wherever it lies in the 
 from typing import NamedTuple
 
 import numpy as np
+from shapely.errors import ShapelyError
 
 from cramp_cli.build.coverage import Coverage, coverage
-from cramp_cli.build.surface import outline_of, rings_of, settled, uncovered
+from cramp_cli.build.surface import outline_of, rings_of, settled
 from cramp_cli.deck.deck import DeckError
+from cramp_cli.deck.regions import Regions
 
 ON_PLANE = 1e-6  # cells
 # A part smaller than this share of a full particle goes to its neighbour. What is alone in a cell,
@@ -37,26 +39,36 @@ class Seeds(NamedTuple):
     reach: np.ndarray  # (n, 2) half axes of the ellipse that touches other bodies, in cells
 
 
-def seed_body(deck, lattice, number: int) -> Seeds:
-    """Return the particles of a body; those of a rigid one lie along its outline.
+def seed_bodies(deck, lattice) -> list[Seeds]:
+    """Return the particles of every body; those of a rigid one lie along its outline.
 
     What a later body covers is left to that body.
 
-    Raises DeckError if there are none.
+    Raises DeckError for a body without particles.
     """
-    body = deck.bodies[number]
+    regions = Regions(deck.bodies)
+    return [_of_body(deck, lattice, regions, number) for number in range(len(deck.bodies))]
+
+
+def _of_body(deck, lattice, regions, number) -> Seeds:
+    body, place = deck.bodies[number], ("bodies", number, "shape")
     if body.hole:
         return _none()
-    seeds = _of_rigid(deck, lattice, number) if body.rigid else _of_solid(deck, lattice, number)
+    if body.rigid:
+        seeds = _of_rigid(deck, lattice, number)
+    else:
+        try:
+            seeds = _of_solid(deck, lattice, regions.left(number), body.particles_per_cell)
+        except ShapelyError as problem:  # shapes too odd to compute with
+            raise DeckError([deck.mistake(place, f"cannot be filled: {problem}")]) from None
     if not len(seeds.position):
         message = "holds no particle: it is smaller than a cell, or later bodies cover it"
-        raise DeckError([deck.mistake(("bodies", number, "shape"), message)])
+        raise DeckError([deck.mistake(place, message)])
     return seeds
 
 
-def _of_solid(deck, lattice, number) -> Seeds:
-    per_cell = deck.bodies[number].particles_per_cell
-    region, box = uncovered(deck, number), lattice.width / per_cell
+def _of_solid(deck, lattice, region, per_cell) -> Seeds:
+    box = lattice.width / per_cell
     rings = rings_of(region)
     if not rings:
         return _none()

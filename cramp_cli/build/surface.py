@@ -7,6 +7,8 @@ inscribed in them touches it, so contact sees the outline itself.
 
 import numpy as np
 
+from cramp_cli.deck.regions import Regions
+
 SAME = 1e-6  # cells; corners of outlines nearer than this to a line or to each other are one
 PASSES = 2  # at a corner the second one keeps the distance from the other side
 
@@ -35,9 +37,10 @@ def outline_of(deck, number, width):
     """
     from shapely import get_parts, snap, union_all
 
-    own = uncovered(deck, number)
+    regions = Regions(deck.bodies)
+    own = regions.left(number)
     alike = [
-        uncovered(deck, n)
+        regions.left(n)
         for n, other in enumerate(deck.bodies)
         if n != number and other.rigid == deck.bodies[number].rigid
     ]
@@ -45,23 +48,6 @@ def outline_of(deck, number, width):
     wall = union_all([own, *(snap(one, own, near) for one in alike)])
     mine = [part for part in get_parts(wall) if part.distance(own) == 0.0]
     return _with_images(union_all(mine), deck, near).simplify(near)
-
-
-def uncovered(deck, number):
-    """Return the outline of a body without what later bodies and holes cover."""
-    from shapely import union_all
-
-    own = deck.bodies[number].shape
-    near = [body.shape for body in deck.bodies[number + 1 :] if _may_meet(own, body.shape)]
-    if not near:
-        return own.outline()
-    return own.outline() - union_all([shape.outline() for shape in near])
-
-
-def _may_meet(one, other) -> bool:
-    """Return whether the boxes around two shapes have an area in common."""
-    (low, high), (least, most) = one.bounds(), other.bounds()
-    return all(low[d] < most[d] and least[d] < high[d] for d in range(2))
 
 
 def rings_of(region) -> list:

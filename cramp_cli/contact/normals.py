@@ -1,8 +1,8 @@
 """Normal and separation of every pair of rows.
 
-The particles of an inclined or curved surface are steps of half a cell. One node sees too few of
-them: its normal is off by 8 to 18 degrees (root mean square along planes at 5 to 77 degrees),
-whatever the method. So a normal is found from what the node and those around it see: 0.2 to 5.
+One node sees too few particles of an inclined or curved surface: its normal was off by 8 to 18
+degrees where these were steps of half a cell (root mean square along planes at 5 to 77 degrees),
+whatever the method. So a normal is found from what the node and those around it see.
 """
 
 from math import sqrt
