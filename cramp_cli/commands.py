@@ -147,13 +147,14 @@ def check_deck(path: Path, overrides: Sequence[str], strict: bool, report: bool)
     answer = {"file": str(path), "valid": False, "mistakes": [], "warnings": [], "notes": []}
     try:
         deck = read_deck(str(path), list(overrides))
-        from cramp_cli.build import build, estimate  # late: imports numba
+        from cramp_cli.build import build, estimate, filled  # late: imports numba
 
         needs = estimate(deck)
         if needs["memory_bytes"] > LARGEST_BUILT:
             answer["notes"].append(f"{path}: {NOT_BUILT}")
         else:
-            build(deck)
+            model, state = build(deck)
+            needs |= filled(deck, model, state) if report else {}
     except DeckError as error:
         return answer | {"mistakes": [str(mistake) for mistake in error.mistakes]}
     warnings = [str(warning) for warning in deck.warnings]

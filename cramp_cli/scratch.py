@@ -28,7 +28,9 @@ def make_scratch(model, state, threads: int = 1) -> Scratch:
     scratch = Scratch(
         grid=grid,
         rows=rows,
-        stencil=make_stencil(n, dim, per_particle, listed, domains=has_domain(shape)),
+        stencil=make_stencil(
+            n, dim, per_particle, listed, domains=has_domain(shape), sized=model.half is not None
+        ),
         segments=make_segments(lattice.node_count, segment_count, 24 * segment_count + 64),
         team=Team(threads, n),
         beyond=beyond_tips(model),
@@ -37,6 +39,7 @@ def make_scratch(model, state, threads: int = 1) -> Scratch:
         per_band=np.zeros(bands),
         seen=(make_seen(), make_seen()),
         followers=make_followers(2 * state.paths.crack_count, dim),
+        half=model.half,
         origins=list_origins(lattice, state.particles),
     )
     share_particles(state, scratch)

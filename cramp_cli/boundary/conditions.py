@@ -40,6 +40,7 @@ class ParticleForce:
     load: np.ndarray  # (n, dim) N
     shape: Any
     signal: Signal
+    number: int = -1  # of the load in the deck
 
 
 @dataclass(frozen=True)
@@ -49,6 +50,7 @@ class Traction:
     faces: Faces
     shape: Any
     signal: Signal
+    number: int = -1  # of the load in the deck
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ import numpy as np
 
 from cramp_cli.numerics.kernel import kernel
 from cramp_cli.numerics.vector import dot, times, vector
-from cramp_cli.shapes.shape import offsets, place_of, point_weights
+from cramp_cli.shapes.shape import offsets, own_shape, place_of, point_weights
 from cramp_cli.state.particles import DELETED
 from cramp_cli.transfer.rows import add, row_and_weight, rows_seen
 
@@ -36,7 +36,7 @@ def add_traction(field, stencil, index, faces, shape, strides, factor):
         if p == DELETED:
             continue
         place = place_of(shape, strides, stencil, p)
-        S = point_weights(place, shape, vector(strides, corner, c))
+        S = point_weights(place, own_shape(shape, stencil, p), vector(strides, corner, c))
         f = times(vector(strides, load, c), factor)
         for e in range(rows_seen(stencil, p, steps)):
             row, w = row_and_weight(stencil, p, e, steps, S)
@@ -54,7 +54,7 @@ def traction_power(grid, stencil, index, faces, shape, strides):
         if p == DELETED:
             continue
         place = place_of(shape, strides, stencil, p)
-        S = point_weights(place, shape, vector(strides, corner, c))
+        S = point_weights(place, own_shape(shape, stencil, p), vector(strides, corner, c))
         f = vector(strides, load, c)
         for e in range(rows_seen(stencil, p, steps)):
             row, w = row_and_weight(stencil, p, e, steps, S)

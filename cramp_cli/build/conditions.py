@@ -31,7 +31,7 @@ def build_conditions(deck, events, *solid) -> tuple[Conditions, tuple]:
     """Return all conditions, and what spoils a J domain.
 
     events: EventList that grows by what the conditions wait for
-    solid: lattice, geometry, particles, blocks, paths
+    solid: lattice, geometry, particles, their half sizes (n, 2) in cells, blocks, paths
     """
     builder = _Builder(deck, events, *solid)
     for number, boundary in enumerate(deck.boundary):
@@ -60,13 +60,13 @@ def build_conditions(deck, events, *solid) -> tuple[Conditions, tuple]:
 class _Builder:
     """Collects conditions and mistakes."""
 
-    def __init__(self, deck, events, lattice, geometry, particles, blocks, paths):
+    def __init__(self, deck, events, lattice, geometry, particles, half, blocks, paths):
         self.deck, self.events, self.lattice, self.geometry = deck, events, lattice, geometry
         self.particles, self.blocks, self.paths = particles, blocks, paths
         self.nodes = lattice.node_positions()
         self.tolerance = ON_PLANE * lattice.width
         self.names, self.holds, self.mirrors = [], [], []
-        self.surface = Surface(deck, lattice, geometry, particles, blocks)
+        self.surface = Surface(deck, lattice, geometry, particles, blocks, half)
         self.forces, self.tractions, self.absorbers, self.gravity = [], [], [], []
         self.obstacles, self.mistakes = [], []
 
@@ -163,19 +163,19 @@ class _Builder:
         """Put dashpots on all faces of bodies that lie on the plane."""
         path, (axis, at) = ("boundary", number, "where"), boundary.where.planes[0]
         candidates = self.surface.all_particles(boundary.where)
-        faces = list(self.surface.faces_at(candidates, axis, at))
-        if not faces:
+        faces = list(self.surface.faces_of(self.surface.solids, boundary.where))
+        if not faces and not len(candidates):
             self.wrong(path, "no face of a particle lies there")
-        elif len({one for _, _, sign in faces for one in sign.tolist()}) > 1:
+        elif not faces or not _one_sided(faces):
             self.wrong(path, "lies inside a body; give its face")
-        for block, mine, sign in faces:
+        for block, pieces in faces:
             along, across = impedances(block, self.geometry)
             if np.isnan(along):
                 what = f"the waves of '{block.material}' have no speed of their own"
                 self.wrong(path, f"{what}; give the face a rim of an isotropic elastic material")
             impedance = np.full(2, across)
             impedance[axis] = along
-            corners = self.surface.corners(block, mine, axis, sign[0], impedance)
+            corners = self.surface.corners(block, pieces, axis, at, impedance)
             self.absorbers.append(Absorber(corners, block.shape, number))
         self._spoil(self.particles.origin[candidates], "an absorbing boundary")
 
@@ -248,41 +248,52 @@ class _Builder:
 
     def add_force(self, number, load):
         """Add forces on the particles of a body."""
-        chosen = self._particles_of(load)
+        chosen, share = self._chosen(load)
         if not len(chosen):
             self.wrong(("loads", number, "where"), f"holds no particle of body {load.body}")
             return
         each = np.array(load.total) / len(chosen) if load.total is not None else np.array(load.each)
-        deep = depth(self.geometry, self.particles.origin[:, 0])
-        rings = is_ring(self.blocks[0].shape) and load.total is not None
-        share = deep / deep[chosen].mean() if rings else np.ones(len(deep))
         signal = self._signal_of(number, load)
         for block in self.blocks:
-            mine = chosen[(chosen >= block.lo) & (chosen < block.hi)]
-            if len(mine):
+            mine = (chosen >= block.lo) & (chosen < block.hi)
+            if mine.any():
                 force = share[mine, None] * each
-                self.forces.append(ParticleForce(mine, force, block.shape, signal))
+                self.forces.append(ParticleForce(chosen[mine], force, block.shape, signal, number))
         self._spoil(self.particles.origin[chosen], "a loaded particle")
+
+    def _chosen(self, load) -> tuple[np.ndarray, np.ndarray]:
+        """Return the particles that a force acts on, and what each takes by the mean of all.
+
+        A total is shared as the volume in the region is; `each` acts on all alike.
+        """
+        if load.total is None:
+            chosen = self.surface.particles_of(self._body_of(load), load.where)
+            return chosen, np.ones(len(chosen))
+        chosen, share = self.surface.shares_of(self._body_of(load), load.where)
+        share = share * self.surface.share[chosen]
+        if is_ring(self.blocks[0].shape):
+            share = share * depth(self.geometry, self.particles.origin[chosen, 0])
+        return chosen, share / share.mean() if len(chosen) else share
 
     def add_traction(self, number, load):
         """Add tractions on the faces of a body that lie on a plane."""
         axis, at = load.where.planes[0]
-        candidates = self._particles_of(load)
-        faces = list(self.surface.faces_at(candidates, axis, at))
-        if any(len(set(sign.tolist())) > 1 for _, _, sign in faces):
+        candidates = self.surface.particles_of(self._body_of(load), load.where)
+        faces = list(self.surface.faces_of([self._body_of(load)], load.where))
+        if not faces and not len(candidates):
+            message = f"no face of a particle of body {load.body} lies there"
+            self.wrong(("loads", number, "where"), message)
+        elif not faces or not _one_sided(faces):
             message = f"lies inside body {load.body}; give its face"
             self.wrong(("loads", number, "where"), message)
             return
         signal = self._signal_of(number, load)
-        for block, mine, sign in faces:
+        for block, pieces in faces:
             stress = np.array(load.traction) if load.traction is not None else np.zeros(2)
             if load.pressure is not None:
-                stress[axis] = -sign[0] * load.pressure
-            corners = self.surface.corners(block, mine, axis, sign[0], stress)
-            self.tractions.append(Traction(corners, block.shape, signal))
-        if not faces:
-            message = f"no face of a particle of body {load.body} lies there"
-            self.wrong(("loads", number, "where"), message)
+                stress[axis] = -pieces.sign[0] * load.pressure
+            corners = self.surface.corners(block, pieces, axis, at, stress)
+            self.tractions.append(Traction(corners, block.shape, signal, number))
         self._spoil(self.particles.origin[candidates], "a loaded face")
 
     def add_gravity(self, number, load):
@@ -293,10 +304,9 @@ class _Builder:
     def _signal_of(self, number, load):
         return self.events.signal(load, f"load {load.name or number + 1}")
 
-    def _particles_of(self, load) -> np.ndarray:
-        """Return the particles of the body of a load in its region."""
-        body = next(n for n, b in enumerate(self.deck.bodies) if b.name == load.body)
-        return self.surface.particles_of(body, load.where)
+    def _body_of(self, load) -> int:
+        """Return the number of the body that a load acts on."""
+        return next(n for n, b in enumerate(self.deck.bodies) if b.name == load.body)
 
     def _spoil(self, places, what, crack=-1):
         """Note places that no J domain may hold, but that of `crack`."""
@@ -304,3 +314,8 @@ class _Builder:
         high = self.particles.origin.max(axis=0) + self.lattice.width
         near = np.all((places >= low) & (places <= high), axis=1)
         self.obstacles.append(Obstacle(places[near], what, crack))
+
+
+def _one_sided(faces) -> bool:
+    """Return whether all faces look to the same side."""
+    return len({sign for _, pieces in faces for sign in pieces.sign.tolist()}) == 1

@@ -9,7 +9,7 @@ from cramp_cli.build.covered import crack_line
 from cramp_cli.build.events import EventList
 from cramp_cli.build.growth import build_propagation
 from cramp_cli.build.laws import law_of
-from cramp_cli.build.surface import outline_of, settled
+from cramp_cli.build.seeds import Seeds, are_sized, seed_bodies
 from cramp_cli.contact.adhesion import no_bonds
 from cramp_cli.cracks.tips import Fracture
 from cramp_cli.deck.deck import Deck, DeckError
@@ -21,6 +21,7 @@ from cramp_cli.shapes.cpdi import ConvectedDomain
 from cramp_cli.shapes.linear import Linear
 from cramp_cli.shapes.ring import Ring
 from cramp_cli.shapes.shape import is_ring
+from cramp_cli.shapes.sized import Sized
 from cramp_cli.shapes.ugimp import UniformGimp
 from cramp_cli.state.bands import band_starts, sorted_by_cell
 from cramp_cli.state.growth import make_growth
@@ -44,7 +45,6 @@ RAMP = 0.8  # cells of a crack over which a smooth tip fades
 FRONT = 0.42
 ENDS = {"plain": PLAIN, "edge": EDGE, "tip": TIP}
 RIGID = ""  # stands for the material of rigid bodies
-ON_PLANE = 1e-6  # cells
 MOST_STEPS = 1e12  # years of computing, long before time stops to move by round-off
 
 
@@ -54,11 +54,11 @@ def build(deck: Deck) -> tuple[Model, State]:
     Raises DeckError for what can not be: a body without particles, a load on nothing.
     """
     lattice = build_lattice(deck)
-    seeds = [seed_body(deck, lattice, number) for number in range(len(deck.bodies))]
+    seeds = seed_bodies(deck, lattice)
     geometry, settings = build_geometry(deck), deck.fracture
-    blocks, particles = _fill(deck, lattice, geometry, seeds)
+    blocks, particles, half, reach = _fill(deck, lattice, geometry, seeds)
     paths = _paths(deck, lattice)
-    solid = (lattice, geometry, particles, blocks, paths)
+    solid = (lattice, geometry, particles, half, blocks, paths)
     events = EventList(deck)
     conditions, obstacles = build_conditions(deck, events, *solid)
     between = build_body_contact(deck, events, lattice.width)
@@ -77,6 +77,8 @@ def build(deck: Deck) -> tuple[Model, State]:
         conditions=conditions,
         groups=build_groups(deck),
         between_bodies=between,
+        half=half if are_sized(seeds) else None,
+        reach=reach if are_sized(seeds) else None,
         leaving=deck.solver.leaving,
         tip_nodes=_smooth_tips(blocks) if deck.solver.tips == "smooth" else None,
         fracture=Fracture(
@@ -114,9 +116,14 @@ def build_geometry(deck: Deck):
     return PLANES[deck.analysis](deck.thickness)
 
 
-def build_shape(deck: Deck, lattice: Lattice, half):
-    """Return the shape function of particles with half sizes `half` (cells)."""
+def build_shape(deck: Deck, lattice: Lattice, half, *, sized: bool):
+    """Return the shape function of particles with half sizes `half` (cells).
+
+    sized: some particles are smaller or larger than that
+    """
     shape = SHAPES[deck.solver.shape](half)
+    if sized and isinstance(shape, UniformGimp | ConvectedDomain):
+        shape = Sized(shape, half)
     if deck.analysis != "axisymmetric":
         return shape
     return Ring(shape, half, round(-lattice.lower[0] / lattice.width), lattice.nodes[0])
@@ -146,49 +153,19 @@ def wave_speed(material) -> float:
     return float(np.sqrt(confined_modulus(law_of(material)) / material.density))
 
 
-def seed_body(deck: Deck, lattice: Lattice, number: int) -> np.ndarray:
-    """Return the particle positions of a body, shape (n, 2): centres of equal parts of cells.
-
-    What a later body covers is left to that body. Those of a rigid body lie along its outline.
-    """
-    body = deck.bodies[number]
-    if body.hole:
-        return np.zeros((0, 2))
-    per_cell, width = body.particles_per_cell, lattice.width
-    low, high = (np.asarray(corner) for corner in body.shape.bounds())
-    first = np.floor((low - lattice.lower) / width - ON_PLANE).astype(int)
-    last = np.ceil((high - lattice.lower) / width + ON_PLANE).astype(int)
-    axes = [
-        lattice.lower[d]
-        + width / per_cell * (np.arange(per_cell * first[d], per_cell * last[d]) + 0.5)
-        for d in range(2)
-    ]
-    points = np.stack([m.ravel() for m in np.meshgrid(*axes)], axis=1)
-    points = points[body.shape.contains(points)]
-    for later in deck.bodies[number + 1 :]:
-        points = points[~later.shape.contains(points)]
-    if not len(points):
-        raise DeckError(
-            [
-                deck.mistake(
-                    ("bodies", number, "shape"),
-                    "holds no particle: it is smaller than a cell, or later bodies cover it",
-                )
-            ]
-        )
-    if body.rigid:
-        points = settled(points, outline_of(deck, number, width), 0.5 * width / per_cell)
-    return points
-
-
 def _smooth_tips(blocks) -> TipNodes:
     """Return where a crack begins for the centre of a particle: half its size behind the front."""
     half = blocks[0].shape.half
     return TipNodes(FRONT - sum(half) / len(half), RAMP)
 
 
-def _fill(deck: Deck, lattice: Lattice, geometry, seeds) -> tuple[tuple[Block, ...], Particles]:
-    """Return blocks of one material and particle size, and their particles sorted by cell."""
+def _fill(
+    deck: Deck, lattice: Lattice, geometry, seeds
+) -> tuple[tuple, Particles, np.ndarray, np.ndarray]:
+    """Return blocks of one material and particle size, and their particles sorted by cell.
+
+    returns: and half size and reach of all particles (n, 2), as in Seeds
+    """
     kinds = sorted({(b.material or RIGID, b.particles_per_cell) for b in deck.bodies if not b.hole})
     blocks, parts, start = [], [], 0
     for material, per_cell in kinds:
@@ -197,24 +174,25 @@ def _fill(deck: Deck, lattice: Lattice, geometry, seeds) -> tuple[tuple[Block, .
             for n, b in enumerate(deck.bodies)
             if not b.hole and (b.material or RIGID, b.particles_per_cell) == (material, per_cell)
         ]
-        points = np.concatenate([seeds[n] for n in bodies])
-        owner = np.concatenate([np.full(len(seeds[n]), n) for n in bodies])
-        points, owner = points[by_place := np.lexsort(points.T)], owner[by_place]
-        order = sorted_by_cell(lattice, points)
+        mine = Seeds(*map(np.concatenate, zip(*(seeds[n] for n in bodies), strict=True)))
+        owner = np.concatenate([np.full(len(seeds[n].share), n) for n in bodies])
+        by_place = np.lexsort(mine.position.T)
+        order = by_place[sorted_by_cell(lattice, mine.position[by_place])]
+        points, share, half, reach = (column[order] for column in mine)
         law, density = None, 0.0  # of a rigid body
         if material != RIGID:
             law, density = law_of(deck.materials[material]), deck.materials[material].density
-        shape = build_shape(deck, lattice, (0.5 / per_cell,) * 2)
+        shape = build_shape(deck, lattice, (0.5 / per_cell,) * 2, sized=are_sized(seeds))
         blocks.append(Block(start, start + len(points), law, shape, material, density))
-        volume = (lattice.width / per_cell) ** 2 * depth(geometry, points[order, 0])
-        parts.append((points[order], owner[order], density * volume, volume))
+        volume = (lattice.width / per_cell) ** 2 * depth(geometry, points[:, 0]) * share
+        parts.append((points, owner[order], density * volume, volume, half, reach))
         start += len(points)
-    columns = (np.concatenate(column) for column in zip(*parts, strict=True))
+    *columns, half, reach = (np.concatenate(column) for column in zip(*parts, strict=True))
     rings, columns_of_laws = is_ring(blocks[0].shape), max(memory(b.law) for b in blocks if b.law)
     particles = particles_at(*columns, memory=columns_of_laws, rings=rings)
     for number, body in enumerate(deck.bodies):
         _set_moving(particles, number, body)
-    return tuple(blocks), particles
+    return tuple(blocks), particles, half, reach
 
 
 def _set_moving(particles: Particles, number: int, body) -> None:

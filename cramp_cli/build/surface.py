@@ -7,6 +7,8 @@ inscribed in them touches it, so contact sees the outline itself.
 
 import numpy as np
 
+from cramp_cli.deck.regions import Regions
+
 SAME = 1e-6  # cells; corners of outlines nearer than this to a line or to each other are one
 PASSES = 2  # at a corner the second one keeps the distance from the other side
 
@@ -35,9 +37,10 @@ def outline_of(deck, number, width):
     """
     from shapely import get_parts, snap, union_all
 
-    own = _uncovered(deck, number)
+    regions = Regions(deck.bodies)
+    own = regions.left(number)
     alike = [
-        _uncovered(deck, n)
+        regions.left(n)
         for n, other in enumerate(deck.bodies)
         if n != number and other.rigid == deck.bodies[number].rigid
     ]
@@ -47,12 +50,16 @@ def outline_of(deck, number, width):
     return _with_images(union_all(mine), deck, near).simplify(near)
 
 
-def _uncovered(deck, number):
-    """Return the outline of a body without what later bodies and holes cover."""
-    left = deck.bodies[number].shape.outline()
-    for later in deck.bodies[number + 1 :]:
-        left = left - later.shape.outline()
-    return left
+def rings_of(region) -> list:
+    """Return the closed lines around a region with the region at their left, (k + 1, 2) each (m).
+
+    Lines and points that are left where shapes only touch have no area and no ring.
+    """
+    from shapely import get_coordinates, get_parts
+    from shapely.geometry.polygon import orient
+
+    parts = (orient(part) for part in get_parts(region) if part.area > 0.0)
+    return [get_coordinates(ring) for part in parts for ring in (part.exterior, *part.interiors)]
 
 
 def _with_images(outline, deck, near):

@@ -18,7 +18,7 @@ class Meeting:
 
     clouds: Clouds
     pairs: Pairs
-    half: np.ndarray  # (n,) half sides of the particles at the start (m)
+    half: np.ndarray  # (n, dim) how far particles reach, each by its number, at the start (m)
     flat: np.ndarray  # (nodes, dim) 1 along the normals of symmetry planes through a node
     rigid: np.ndarray  # (groups,) 1 for rigid bodies
     velocity: np.ndarray = field(default_factory=lambda: np.zeros(0))  # (groups, dim) of these
@@ -54,11 +54,12 @@ def _meeting(model, scratch) -> Meeting:
     """Return the scratch paper, anew where rows or lists have been made larger."""
     meeting, rows, entries = scratch.meeting, len(scratch.grid.mass), scratch.stencil.table.size
     if meeting is None:
-        sides = [np.full(b.hi - b.lo, b.shape.half[0]) for b in model.blocks]
+        full = [np.tile(b.shape.half, (b.hi - b.lo, 1)) for b in model.blocks]
+        reach = np.concatenate(full) if model.reach is None else model.reach
         meeting = scratch.meeting = Meeting(
             clouds=make_clouds(rows, scratch.stencil),
             pairs=make_pairs(64, model.lattice.node_count, len(model.strides)),
-            half=np.concatenate(sides) * model.lattice.width,
+            half=reach * model.lattice.width,
             flat=_flat(model),
             rigid=model.between_bodies.rigid_groups(),
         )

@@ -1,8 +1,8 @@
 """Normal and separation of every pair of rows.
 
-The particles of an inclined or curved surface are steps of half a cell. One node sees too few of
-them: its normal is off by 8 to 18 degrees (root mean square along planes at 5 to 77 degrees),
-whatever the method. So a normal is found from what the node and those around it see: 0.2 to 5.
+One node sees too few particles of an inclined or curved surface: its normal was off by 8 to 18
+degrees where these were steps of half a cell (root mean square along planes at 5 to 77 degrees),
+whatever the method. So a normal is found from what the node and those around it see.
 """
 
 from math import sqrt
@@ -50,10 +50,10 @@ def find_normals(
 ):
     """Find normal and separation of all pairs; a pair without a normal is left apart.
 
-    half: (n,) half sides of the particles (m); kind: of fitted normals; rigid: (groups,) 1 for
-    rigid bodies, their outlines, and which way they have gone (groups, dim), m; flat: (nodes, dim)
-    1 along the normals of symmetry planes through a node, along which no normal points;
-    lattice: lower corner (m) and width (m)
+    half: (n, 2) half axes of the particle of each number (m); kind: of fitted normals; rigid:
+    (groups,) 1 for rigid bodies, their outlines, and which way they have gone (groups, dim), m;
+    flat: (nodes, dim) 1 along the normals of symmetry planes through a node, along which no normal
+    points; lattice: lower corner (m) and width (m)
     """
     lower, width = lattice
     for i in range(pairs.used[0]):

@@ -23,8 +23,11 @@ def has_left_body(model, cloud, place) -> bool:
         return True
     away = np.sum((cloud.particles.origin - place) ** 2, axis=1)
     nearest = int(np.argmin(away))
-    shape = next(block.shape for block, lo, hi in cloud.parts if lo <= nearest < hi)
-    reach = OUTSIDE * model.lattice.width * np.hypot(*shape.half)
+    if model.half is not None:
+        half = model.half[cloud.particles.id[nearest]]
+    else:
+        half = next(block.shape.half for block, lo, hi in cloud.parts if lo <= nearest < hi)
+    reach = OUTSIDE * model.lattice.width * np.hypot(*half)
     return bool(away[nearest] > reach * reach)
 
 

@@ -73,7 +73,9 @@ class BodySection(Section):
     rigid: RigidSection | None = Field(
         None, description="its motion, if it is rigid: it touches others and nothing moves it"
     )
-    shape: AnyShape = Field(description="the region; where bodies overlap the later one counts")
+    shape: AnyShape = Field(
+        description="the region, filled up to its border; where bodies overlap the later one counts"
+    )
     each: Flag = Field(
         False,
         description="make a body of every piece of the shape, NAME_1, NAME_2 ...: they touch each "

@@ -27,6 +27,7 @@ from cramp_cli.deck.propagation import InterfaceSection, PropagationSection
 from cramp_cli.deck.ring_checks import ring_mistakes
 from cramp_cli.deck.run import FractureSection, OutputSection, SolverSection
 from cramp_cli.deck.solids import Isotropic
+from cramp_cli.deck.thin import thin_warnings
 from cramp_cli.deck.write import to_yaml
 from cramp_cli.schema.explain import explain
 from cramp_cli.schema.loader import read_source
@@ -185,6 +186,7 @@ def _filled(deck: Deck) -> Deck:
 def _warnings(deck: Deck) -> Iterator[Wrong]:
     yield from crack_warnings(parts_of(deck))
     yield from ligament_warnings(parts_of(deck))
+    yield from thin_warnings(deck)
     if deck.solver.may_be_unstable:
         better = deck.solver.strain.replace("-", "+")
         message = f"may grow without bound with {deck.solver.update}; use '{better}'"

@@ -20,8 +20,12 @@ class ForceSection(Section):
     type: Literal["force"] = Field("force", description="kind of load")
     name: Name | None = Field(None, description="its name, for messages and overrides")
     body: Name = Field(description="the body it acts on")
-    where: Where = Field(description="the part of the body it acts on")
-    total: pair(Force) | None = Field(None, description="sum over all particles chosen")
+    where: Where = Field(
+        description="the part of the body it acts on; a plane: particles whose box touches it"
+    )
+    total: pair(Force) | None = Field(
+        None, description="their sum, shared as the volume in the region is"
+    )
     each: pair(Force) | None = Field(None, description="force on each particle chosen")
     in_time: Curve = Field(default_factory=Constant, description=FACTOR)
     hold_when: EventSection | None = Field(None, description=HOLD)

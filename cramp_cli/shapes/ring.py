@@ -23,6 +23,7 @@ from cramp_cli.shapes.shape import (
     is_ring,
     lay_out,
     node_steps,
+    own_shape,
     place_of,
     reaches_beyond,
     ring_slopes,
@@ -65,6 +66,12 @@ def _(shape):
 @lay_out.implement(Ring)
 def _(shape, stencil, F, p):
     return lay_out(shape.plain, stencil, F, p)
+
+
+@own_shape.implement(Ring)
+def _(shape, stencil, p):
+    own = own_shape(shape.plain, stencil, p)
+    return Ring(own, shape.half, shape.axis, shape.columns, shape.radius)
 
 
 @inlined_kernel

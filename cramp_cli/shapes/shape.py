@@ -61,6 +61,11 @@ def lay_out(shape, stencil, F, p):
 
 
 @generic
+def own_shape(shape, stencil, p):
+    """Return the shape of one particle, with its own size (sized.py)."""
+
+
+@generic
 def place_of(shape, strides, stencil, p):
     """Return where a particle is, in cells from its first node: a point, or its domain."""
 
@@ -234,6 +239,7 @@ def plane(kind, slopes_in_a_ring=_unchanged, of_a_point=_linear) -> None:
     """Declare a shape of the plane: what it answers, alone and as part of a ring."""
     is_ring.implement(kind)(lambda shape: False)
     has_domain.implement(kind)(lambda shape: False)
+    own_shape.implement(kind)(lambda shape, stencil, p: shape)
     lay_out.implement(kind)(lambda shape, stencil, F, p: AS_IT_IS)
     place_of.implement(kind)(lambda shape, strides, stencil, p: vector(strides, stencil.local, p))
     seen_from.implement(kind)(lambda shape, base, local: shape)

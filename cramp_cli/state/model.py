@@ -76,6 +76,9 @@ class Model:
     conditions: Any  # boundary conditions and loads
     groups: Groups  # which bodies share their rows
     between_bodies: Any = None  # BodyContact; None: all bodies are glued
+    half: np.ndarray | None = None  # (n, dim) half size of each particle by number, in cells;
+    # None: all of a block are full and as large as its shape says
+    reach: np.ndarray | None = None  # (n, dim) how far each reaches towards another body, in cells
     fracture: Any = None  # how J and K are evaluated
     cohesion: Any = None  # traction laws of crack faces; None: there are none
     events: tuple = ()  # what loads and boundaries wait for: boundary/events.py
@@ -125,6 +128,7 @@ class Scratch:
     seen: tuple  # room for what the surfaces of a crack point see, above and below
     followers: Any  # nodes ahead of tips that open as those behind do
     shared: list = field(default_factory=list)  # for each block: its particles, shared out
+    half: np.ndarray | None = None  # that of the model
     index: np.ndarray | None = None  # (n,) where the particle of each number is
     origins: Any = None  # numbers of the particles by the cells in which they started
     held: list | None = None  # where each prescribed velocity acts: boundary/grip.py

@@ -21,6 +21,7 @@ class Stencil(NamedTuple):
 
     base: np.ndarray  # (n,) lowest node of the particle's nodes
     local: np.ndarray  # (n, dim) position from the base node, in cells
+    half: np.ndarray  # (n, dim) half size at the start, in cells; only of particles of many sizes
     sides: np.ndarray  # (n, dim*dim) half sides of its domain, one by one, in cells; of cpdi only
     near: np.ndarray  # (n,) line of the lists of entries; FAR or AROUND: the nodes are the rows
     entries: np.ndarray  # (listed,) number of entries of a listed particle
@@ -34,15 +35,23 @@ class Stencil(NamedTuple):
 
 
 def make_stencil(
-    n: int, dim: int, nodes_per_particle: int, listed: int, *, domains: bool = False
+    n: int,
+    dim: int,
+    nodes_per_particle: int,
+    listed: int,
+    *,
+    domains: bool = False,
+    sized: bool = False,
 ) -> Stencil:
     """Return an empty stencil for `n` particles of which `listed` may lie near cracks.
 
-    domains: whether particles have domains that are strained with them
+    domains: whether particles have domains that are strained with them; sized: whether each has a
+    size of its own
     """
     return Stencil(
         base=np.zeros(n, dtype=np.int32),
         local=np.zeros((n, dim)),
+        half=np.zeros((n if sized else 0, dim)),
         sides=np.zeros((n if domains else 0, dim * dim)),
         near=np.full(n, FAR, dtype=np.int32),
         listed=np.zeros(n, dtype=np.int32),

@@ -52,6 +52,8 @@ def share_particles(state, scratch) -> None:
     """Share the particles out to the threads as the bands of the state say."""
     scratch.shared = [share_out(starts, scratch.team.size) for starts in state.bands]
     scratch.index = np.argsort(state.particles.id)
+    if scratch.half is not None:
+        scratch.stencil.half[:] = scratch.half[state.particles.id]
     scratch.index[state.particles.id[is_deleted(state.particles)]] = DELETED
 
 

@@ -43,6 +43,7 @@ from cramp_cli.shapes.shape import (
     first_nodes,
     gradients,
     lay_out,
+    own_shape,
     place_of,
     seen_from,
     store_hoop,
@@ -77,9 +78,10 @@ def locate(
         for number in range(parts[part, 0], parts[part, 1]):
             p = uint64(number)
             x = in_cells(vector(strides, position, p), lower, width)
-            first, cell = first_nodes(x, shape, 0), whole(x)
+            own = own_shape(shape, stencil, p)
+            first, cell = first_nodes(x, own, 0), whole(x)
             near[p] = FAR
-            laid = lay_out(shape, stencil, F, p)
+            laid = lay_out(own, stencil, F, p)
             if laid == NOWHERE or not within(first, seen, nodes):
                 gone = number
                 continue

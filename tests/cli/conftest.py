@@ -69,7 +69,7 @@ def solver(monkeypatch):
         return {"cells": 900, **stub.needs}
 
     for name, parts in {
-        "cramp_cli.build": {"build": build, "estimate": estimate},
+        "cramp_cli.build": {"build": build, "estimate": estimate, "filled": lambda *_: {}},
         "cramp_cli.simulation": {"simulate": simulate},
         "cramp_cli.warm": {"run_small_cases": lambda: None},
     }.items():

@@ -1,0 +1,236 @@
+"""Bodies of any place and shape: mass, centre, forces and balance are those of the geometry."""
+
+from math import pi
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from support import build_deck, locate
+
+from cramp_cli.boundary.conditions import add_loads
+from cramp_cli.build.coverage import coverage
+from cramp_cli.build.seeds import LEAST
+from cramp_cli.build.surface import rings_of
+from cramp_cli.cracks.fields import find_openings
+from cramp_cli.transfer.sums import sum_internal_force, sum_mass_and_momentum
+
+GROUND = """
+cramp: 1
+analysis: plane_strain
+thickness: 0.3
+grid: {cell: 1, lower: [-4, -4], upper: [20, 20]}
+materials: {m: {law: elastic, density: 2, E: 1, nu: 0}}
+bodies: [{name: b, material: m, shape: {type: rectangle, lower: [0, 0], upper: [1, 1]}}]
+solver: {end_time: 1}
+"""
+PER_VOLUME = 2.0 * 0.3
+DISCS_ARE_POLYGONS = 2e-4  # outlines of circles have 64 pieces to a quarter
+
+
+def thousandths(low, high):
+    """Return numbers between two with three decimals."""
+    return st.integers(round(1000 * low), round(1000 * high)).map(lambda n: n / 1000)
+
+
+place = thousandths(0.0, 14.0)
+size = thousandths(0.3, 8.0)
+per_cell = st.integers(1, 4)
+rectangle = st.builds(
+    lambda x, y, w, h: {"type": "rectangle", "lower": [x, y], "upper": [x + w, y + h]},
+    place, place, thousandths(0.05, 6.0), thousandths(0.05, 6.0),
+)  # fmt: skip
+disk = st.builds(
+    lambda x, y, r: {"type": "disk", "center": [5 + x / 3, 5 + y / 3], "radius": r},
+    place, place, size,
+)  # fmt: skip
+annulus = st.builds(
+    lambda x, y, r, share: {
+        "type": "annulus", "center": [5 + x / 3, 5 + y / 3], "outer": r, "inner": share * r,
+    },
+    place, place, size, thousandths(0.1, 0.97),
+)  # fmt: skip
+ellipse = st.builds(
+    lambda x, y, a, b, angle: {
+        "type": "ellipse", "center": [5 + x / 3, 5 + y / 3], "radii": [a, b], "angle": angle,
+    },
+    place, place, size, size, thousandths(0, 180),
+)  # fmt: skip
+triangle = st.builds(
+    lambda points: {"type": "polygon", "points": [list(p) for p in points]},
+    st.lists(st.tuples(place, place), min_size=3, max_size=3, unique=True),
+)
+any_shape = st.one_of(rectangle, disk, annulus, ellipse, triangle)
+
+
+def body(shape, per_cell=2, **more):
+    return {"name": "b", "material": "m", "particles_per_cell": per_cell, "shape": shape} | more
+
+
+def area(shape) -> float:
+    """Return the area of a shape by its formula."""
+    kind = shape["type"]
+    if kind == "rectangle":
+        return float(np.prod(np.subtract(shape["upper"], shape["lower"])))
+    if kind == "disk":
+        return pi * shape["radius"] ** 2
+    if kind == "annulus":
+        return pi * (shape["outer"] ** 2 - shape["inner"] ** 2)
+    return (
+        pi * np.prod(shape["radii"]) if kind == "ellipse" else shapely.Polygon(shape["points"]).area
+    )
+
+
+@given(st.lists(st.lists(st.tuples(place, place), min_size=3, max_size=6), min_size=1, max_size=4))
+@settings(deadline=None, max_examples=60)
+def test_what_lies_in_each_box(corners):
+    """Boxes cut one by one by another program are the reference: area and centroid of each."""
+    region = shapely.Point(7, 7).buffer(5)
+    for n, points in enumerate(corners):
+        other = shapely.convex_hull(shapely.MultiPoint(points))
+        region = region | other if n % 2 else region - other
+    assume(region.area > 0.1)
+    found = coverage(rings_of(region))
+    (x, y), boxes = found.box.T, shapely.box(*found.box.T, *(found.box + 1).T)
+    assert len(set(zip(x.tolist(), y.tolist(), strict=True))) == len(x)
+    parts = shapely.intersection(boxes, region)
+    assert found.area.sum() == pytest.approx(region.area, abs=1e-4)
+    assert found.area == pytest.approx(shapely.area(parts), abs=1e-5)
+    centre = shapely.get_coordinates(shapely.centroid(parts)) - found.box
+    assert found.first == pytest.approx(shapely.area(parts)[:, None] * centre, abs=1e-5)
+
+
+@given(any_shape, per_cell)
+@settings(deadline=None, max_examples=120)
+def test_mass_and_centre_of_a_body(shape, per_cell):
+    assume(area(shape) > 0.01)
+    model, state, _ = build_deck(GROUND, bodies=[body(shape, per_cell)])
+    particles, region = state.particles, model_region(model, shape)
+    assert particles.mass.sum() == pytest.approx(PER_VOLUME * area(shape), rel=DISCS_ARE_POLYGONS)
+    centre = particles.mass @ particles.position / particles.mass.sum()
+    assert centre == pytest.approx(shapely.get_coordinates(region.centroid)[0], abs=1e-4)
+    assert particles.mass.min() > 0.0
+    assert np.all(model.half is None or model.half <= 0.5)
+
+
+def model_region(model, shape):
+    from pydantic import TypeAdapter
+
+    from cramp_cli.deck.shapes import AnyShape
+
+    return TypeAdapter(AnyShape).validate_python(shape, context={"folder": None}).outline()
+
+
+@given(thousandths(0.1, 0.9), thousandths(0.1, 0.9), thousandths(3.0, 9.0), per_cell)
+@settings(deadline=None, max_examples=30)
+def test_no_particle_of_a_large_body_is_light(x, y, side, per_cell):
+    """A body of several cells has no particle that stands out as a light one."""
+    shape = {"type": "rectangle", "lower": [x, y], "upper": [x + side, y + 0.7 * side]}
+    _, state, _ = build_deck(GROUND, bodies=[body(shape, per_cell)])
+    full = PER_VOLUME / per_cell**2
+    assert state.particles.mass.min() >= min(LEAST, 0.3 * per_cell) * full * (1.0 - 1e-9)
+
+
+@given(disk, rectangle, per_cell)
+@settings(deadline=None, max_examples=40)
+def test_a_later_body_leaves_neither_gap_nor_overlap(first, second, per_cell):
+    """Together they have the mass of the union, the later one all of its own."""
+    bodies = [body(first, per_cell), body(second, per_cell, name="later")]
+    assume(area(second) > 0.01)
+    regions = [model_region(None, shape) for shape in (first, second)]
+    assume((regions[0] - regions[1]).area > 0.01)
+    _, state, _ = build_deck(GROUND, bodies=bodies)
+    mass = np.bincount(state.particles.body, state.particles.mass)
+    assert mass.sum() == pytest.approx(PER_VOLUME * (regions[0] | regions[1]).area, rel=1e-4)
+    assert mass[1] == pytest.approx(PER_VOLUME * area(second), rel=1e-4)
+
+
+@given(thousandths(0.0, 2.0), thousandths(0.4, 5.0), thousandths(0.3, 5.0))
+@settings(deadline=None, max_examples=30)
+def test_mass_of_rings(inner, width, height):
+    """All around: the integral of 2 pi r over the section."""
+    grid = {"cell": 1, "lower": [-2, -4], "upper": [20, 20]}
+    shape = {"type": "rectangle", "lower": [inner, 0.3], "upper": [inner + width, 0.3 + height]}
+    deck = GROUND.replace("plane_strain", "axisymmetric").replace("thickness: 0.3\n", "")
+    _, state, _ = build_deck(deck, bodies=[body(shape)], grid=grid)
+    wanted = 2.0 * height * 2.0 * pi * (inner + 0.5 * width) * width
+    assert state.particles.mass.sum() == pytest.approx(wanted, rel=1e-9)
+
+
+BOX = {"type": "rectangle", "lower": [0.37, 1.21], "upper": [9.13, 6.84]}
+SPANS = {"x": (0.37, 9.13), "y": (1.21, 6.84)}
+
+
+def forces(loads, shape=BOX, per_cell=2, **sections):
+    """Return model, state and scratch with the forces of loads on the grid."""
+    model, state, scratch = build_deck(
+        GROUND, bodies=[body(shape, per_cell)], loads=loads, **sections
+    )
+    locate(model, state, scratch)
+    sum_mass_and_momentum(model, state, scratch)
+    find_openings(model, state, scratch)
+    scratch.grid.force[:] = 0.0
+    add_loads(model, scratch, state)
+    return model, state, scratch
+
+
+@given(
+    st.sampled_from([("x", 0), ("x", 1), ("y", 0), ("y", 1)]),
+    thousandths(0.0, 1.0), thousandths(0.0, 1.0), per_cell,
+    st.sampled_from(["ugimp", "linear", "bspline2"]),
+)  # fmt: skip
+@settings(deadline=None, max_examples=60)
+def test_a_traction_acts_on_the_patch_of_the_deck(side, start, end, per_cell, kind):
+    (axis, which), along = side, "y" if side[0] == "x" else "x"
+    low, high = (float(np.interp(s, (0, 1), SPANS[along])) for s in sorted((start, end)))
+    assume(high - low > 0.01)
+    where = {axis: SPANS[axis][which], along: [low, high]}
+    load = {"type": "traction", "body": "b", "where": where, "traction": [3.0, -5.0]}
+    model, _, scratch = forces([load], per_cell=per_cell, solver={"shape": kind})
+    total = np.array([3.0, -5.0]) * 0.3 * (high - low)
+    assert scratch.grid.force.sum(axis=0) == pytest.approx(total, rel=1e-9)
+    if kind == "ugimp" and per_cell > 1:
+        nodes = model.lattice.node_positions()
+        middle = scratch.grid.force[: len(nodes), 0] @ nodes / total[0]
+        wanted = {axis: SPANS[axis][which], along: 0.5 * (low + high)}
+        assert middle == pytest.approx([wanted["x"], wanted["y"]], abs=1e-9)
+
+
+@given(thousandths(0.0, 1.0), thousandths(0.0, 1.0), per_cell)
+@settings(deadline=None, max_examples=40)
+def test_a_force_acts_on_the_region_of_the_deck(start, end, per_cell):
+    """The sum is the deck's; its place is the middle of the region within half a particle."""
+    low, high = (float(np.interp(s, (0, 1), SPANS["x"])) for s in sorted((start, end)))
+    assume(high - low > 0.01)
+    where = {"x": [low, high], "y": [0, 8]}
+    load = {"type": "force", "body": "b", "where": where, "total": [3.0, -5.0]}
+    model, _, scratch = forces([load], per_cell=per_cell)
+    assert scratch.grid.force.sum(axis=0) == pytest.approx([3.0, -5.0], rel=1e-9)
+    nodes = model.lattice.node_positions()
+    middle = scratch.grid.force[: len(nodes), 0] @ nodes / 3.0
+    assert middle[1] == pytest.approx(np.mean(SPANS["y"]), abs=1e-9)
+    assert middle[0] == pytest.approx(0.5 * (low + high), abs=0.5 * 1.6 / per_cell)
+
+
+@given(thousandths(0.0, 1.0), thousandths(0.0, 1.0), thousandths(3.0, 7.0), thousandths(3.0, 7.0),
+       st.integers(2, 4))  # fmt: skip
+@settings(deadline=None, max_examples=40)
+def test_a_uniform_stress_is_in_balance_with_its_tractions(x, y, width, height, per_cell):
+    """At every node, whatever the place and size of a rectangle: the patch test at the border."""
+    shape = {"type": "rectangle", "lower": [x, y], "upper": [x + width, y + height]}
+    stress = np.array([[2.0, 0.7], [0.7, -3.0]])
+    loads = [
+        {
+            "type": "traction",
+            "body": "b",
+            "where": {axis: at},
+            "traction": (sign * stress[d]).tolist(),
+        }
+        for d, axis in enumerate("xy")
+        for at, sign in ((shape["lower"][d], -1.0), (shape["upper"][d], 1.0))
+    ]
+    model, state, scratch = forces(loads, shape, per_cell)
+    state.particles.stress[:] = [2.0, -3.0, 0.0, 0.7]
+    sum_internal_force(model, state, scratch)
+    assert np.abs(scratch.grid.force).max() < 1e-12
