@@ -78,7 +78,7 @@ def build(deck: Deck) -> tuple[Model, State]:
         groups=build_groups(deck),
         between_bodies=between,
         leaving=deck.solver.leaving,
-        tip_nodes=_smooth_tips(blocks) if deck.solver.tips == "smooth" else None,
+        tip_nodes=TipNodes(FRONT, RAMP) if deck.solver.tips == "smooth" else None,
         fracture=Fracture(
             methods=settings.methods,
             radii=settings.radius or (),
@@ -179,12 +179,6 @@ def seed_body(deck: Deck, lattice: Lattice, number: int) -> np.ndarray:
     if body.rigid:
         points = settled(points, outline_of(deck, number, width), 0.5 * width / per_cell)
     return points
-
-
-def _smooth_tips(blocks) -> TipNodes:
-    """Return where a crack begins for the centre of a particle: half its size behind the front."""
-    half = blocks[0].shape.half
-    return TipNodes(FRONT - sum(half) / len(half), RAMP)
 
 
 def _fill(deck: Deck, lattice: Lattice, geometry, seeds) -> tuple[tuple[Block, ...], Particles]:

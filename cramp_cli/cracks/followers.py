@@ -37,7 +37,8 @@ MOST = 32  # nodes of a tip that may follow, or lead: LATERAL and REACH of tip_n
 ON_TIP = 1e-9  # cells; a node at the tip is behind it
 LIGHT = 1e-6  # a smaller weight of a node that leads is none
 # Share of its mass that moves with the jump of a node, below which it follows up to a cell behind
-# the tip. From 0.003 to 0.006 K is the same; with none it changes by a sixth of a cell at 45 degrees.
+# the tip. From 0.003 to 0.006 K is the same; with none the tip of a crack at 45 degrees jumps by a
+# sixth of a cell when it passes a node.
 FAINT = 0.004
 
 
