@@ -40,6 +40,7 @@ def make_scratch(model, state, threads: int = 1) -> Scratch:
         seen=(make_seen(), make_seen()),
         followers=make_followers(2 * state.paths.crack_count, dim),
         half=model.half,
+        at_tips=np.zeros((2 * state.paths.crack_count, 2)),
         origins=list_origins(lattice, state.particles),
     )
     share_particles(state, scratch)

@@ -80,7 +80,7 @@ def build(deck: Deck) -> tuple[Model, State]:
         half=half if are_sized(seeds) else None,
         reach=reach if are_sized(seeds) else None,
         leaving=deck.solver.leaving,
-        tip_nodes=_smooth_tips(blocks) if deck.solver.tips == "smooth" else None,
+        tip_nodes=TipNodes(FRONT, RAMP) if deck.solver.tips == "smooth" else None,
         fracture=Fracture(
             methods=settings.methods,
             radii=settings.radius or (),
@@ -151,12 +151,6 @@ def time_step(deck: Deck) -> float:
 def wave_speed(material) -> float:
     """Return the dilational wave speed (m/s), that of the solid also in plane stress."""
     return float(np.sqrt(confined_modulus(law_of(material)) / material.density))
-
-
-def _smooth_tips(blocks) -> TipNodes:
-    """Return where a crack begins for the centre of a particle: half its size behind the front."""
-    half = blocks[0].shape.half
-    return TipNodes(FRONT - sum(half) / len(half), RAMP)
 
 
 def _fill(

@@ -114,31 +114,23 @@ def are_plain(rows, first, steps):
 
 @kernel
 def assign_rows(
-    stencil,
-    rows,
-    segments,
-    paths,
-    particles,
-    of_body,
-    of_crack,
-    shape,
-    strides,
-    nodes_along,
-    width,
-    lower,
-    centre,
-    ramp,
+    stencil, rows, segments, paths, particles, groups, part, line, shape, place, tip_nodes
 ):
-    """List the rows of all particles near cracks and meetings; too many are counted, not made.
+    """List the rows of a block near cracks and meetings; too many are counted, not made.
 
     A plain particle leaves the list: its rows are its nodes.
 
-    of_body, of_crack: contact group of each
+    groups: contact group of every body, of every crack
+    part: first of the listed particles of the block, and the one after its last; line: where those
+    that stay on the list begin
+    place: strides, nodes along the axes, width, lower; tip_nodes: of TipNodes
+
+    returns: the line after the last that is in use
     """
+    (of_body, of_crack), (strides, nodes_along, width, lower) = groups, place
     listed, base, local = stencil.listed, stencil.base, stencil.local
     steps, side, tolerance = offsets(strides, shape), len(node_steps(shape, 1)), ON_CRACK * width
-    line = 0
-    for candidate in range(stencil.count[0]):
+    for candidate in range(part[0], part[1]):
         p = listed[candidate]
         first, cell, group = base[p], base[p], of_body[particles.body[p]]
         for d in range(len(strides)):
@@ -170,7 +162,7 @@ def assign_rows(
                 continue
             if tip != known:
                 known = tip
-                cut, gx, gy = cut_share(paths, tip, x, y, shape.half, width, centre, ramp)
+                cut, gx, gy = cut_share(paths, tip, x, y, shape.half, width, tip_nodes)
             give_shares(stencil, rows, segments.ends, line, k, node, group, crossed, cut, gx, gy)
         line += 1
-    stencil.count[0] = line
+    return line

@@ -50,8 +50,8 @@ def draw_faces(model, state, scratch) -> None:
     before, traction = paths.damage.copy(), np.zeros_like(paths.point)
     for number, law in enumerate(model.cohesion.at(state.time)):
         pull_points(traction, paths, faces.normal, law, number, 0.5 * model.dt, True)
-    force, mass, cut = scratch.grid.force, scratch.grid.mass, cut_of_points(model, paths)
-    where = (cut, mass, *what_surfaces_see(model, scratch))
+    cut = cut_of_points(model, paths, scratch.at_tips)
+    force, where = scratch.grid.force, (cut, scratch.grid.mass, *what_surfaces_see(model, scratch))
     spread(force, *scratch.seen, traction, paths, faces, *where, model.geometry.thickness)
     scratch.parted = np.flatnonzero((before < 1.0) & (paths.damage >= 1.0))
     scratch.drawn = (traction, paths.above - paths.below)

@@ -6,13 +6,14 @@ from cramp_cli.cracks.advect import move_cracks
 from cramp_cli.cracks.assign import assign_rows, list_particles_near_cracks
 from cramp_cli.cracks.contact import GLUED, sum_displacement
 from cramp_cli.cracks.followers import follow, list_followers
-from cramp_cli.cracks.meetings import list_meeting_particles, mark_groups
+from cramp_cli.cracks.meetings import forget_groups, list_meeting_particles, mark_groups
 from cramp_cli.cracks.rows import clear_shared, forget_rows
 from cramp_cli.cracks.segments import list_segments, make_segments
 from cramp_cli.cracks.tip_nodes import EXTENSION, cut_along_cracks, mark_tip_nodes
 from cramp_cli.cracks.tip_shares import see_image, sum_sides
 from cramp_cli.shapes.shape import support
 from cramp_cli.state.grid import make_grid
+from cramp_cli.state.model import TipNodes
 from cramp_cli.state.stencil import make_lists
 
 
@@ -45,16 +46,18 @@ def find_rows(model, state, scratch) -> None:
 
 def _find_meetings(model, state, scratch) -> None:
     """Mark the nodes that several contact groups see, and the particles there."""
-    rows, stencil, shape = scratch.rows, scratch.stencil, model.blocks[0].shape
-    place = (shape, model.strides)
-    mark_groups(rows, stencil, state.particles.body, model.groups.of_body, *place)
-    list_meeting_particles(rows, stencil, state.bands, scratch.report, *place)
+    rows, stencil, of_body = scratch.rows, scratch.stencil, model.groups.of_body
+    forget_groups(rows, of_body)
+    for b in model.blocks:
+        who = (state.particles.body, of_body, b.shape)
+        mark_groups(rows, stencil, *who, model.strides, b.lo, b.hi)
+    for b, bands, report in zip(model.blocks, state.bands, scratch.report, strict=True):
+        list_meeting_particles(rows, stencil, bands, report, b.shape, model.strides)
 
 
 def _rows_fit(scratch, state, model) -> bool:
     """Try once; make room for what did not fit and return False."""
-    lattice, strides, shape = model.lattice, model.strides, model.blocks[0].shape
-    stencil, rows, segments, tips = scratch.stencil, scratch.rows, scratch.segments, model.tip_nodes
+    lattice, strides, stencil, rows = model.lattice, model.strides, scratch.stencil, scratch.rows
     listed = list_particles_near_cracks(stencil, state.bands, scratch.report, len(stencil.entries))
     if listed > len(stencil.entries):
         per_particle = stencil.which.shape[1] // 2
@@ -63,12 +66,9 @@ def _rows_fit(scratch, state, model) -> bool:
         )
         return False
     forget_rows(rows)
-    if tips is not None:
+    if model.tip_nodes is not None:
         _look_around_tips(model, state, scratch)
-    place = (strides, model.nodes, lattice.width, lattice.lower)
-    ramp = (0.0, 1.0) if tips is None else (tips.centre, tips.ramp)
-    who = (state.paths, state.particles, *model.groups)
-    assign_rows(stencil, rows, segments, *who, shape, *place, *ramp)
+    _assign_rows(model, state, scratch)
     if rows.count[0] > len(rows.node):
         scratch.grid, larger = make_grid(lattice.node_count, len(strides), 2 * int(rows.count[0]))
         scratch.rows = larger._replace(lowest=rows.lowest, highest=rows.highest)
@@ -76,14 +76,33 @@ def _rows_fit(scratch, state, model) -> bool:
     return True
 
 
+def _assign_rows(model, state, scratch) -> None:
+    """List the rows of all particles that have been listed."""
+    lattice, stencil, line = model.lattice, scratch.stencil, 0
+    who = (stencil, scratch.rows, scratch.segments, state.paths, state.particles, model.groups)
+    place = (model.strides, model.nodes, lattice.width, lattice.lower)
+    tips = model.tip_nodes or TipNodes(0.0, 1.0)  # of sharp tips, which no node asks for
+    for block, part in _parts_of_list(model, stencil):
+        line = assign_rows(*who, part, line, block.shape, place, tips)
+    stencil.count[0] = line
+
+
+def _parts_of_list(model, stencil) -> list:
+    """Return every block with the first of its listed particles and the one after its last."""
+    listed = stencil.listed[: stencil.count[0]]
+    return [(b, tuple(np.searchsorted(listed, (b.lo, b.hi)).tolist())) for b in model.blocks]
+
+
 def _look_around_tips(model, state, scratch) -> None:
     """Find the nodes beside every tip, and what they see on both sides of its crack."""
-    lattice, rows, particles = model.lattice, scratch.rows, state.particles
+    lattice, rows = model.lattice, scratch.rows
     grid = (lattice.cells, lattice.width, lattice.lower, model.strides)
     mark_tip_nodes(rows, state.paths, scratch.segments, scratch.beyond > 0.0, *grid)
-    who = (state.paths, particles, *model.groups)
-    place = (model.blocks[0].shape, model.strides, lattice.width, model.tip_nodes)
-    sum_sides(rows, scratch.stencil, *who, *place)
+    scratch.at_tips[:] = np.inf, 0.0
+    who = (scratch.stencil, state.paths, state.particles, model.groups)
+    place = (model.strides, lattice.width)
+    for block, part in _parts_of_list(model, scratch.stencil):
+        sum_sides(rows, scratch.at_tips, *who, part, block.shape, place, model.tip_nodes)
     for m in (plane.mirror for plane in model.conditions.mirrors):
         if m.crack >= 0:
             see_image(rows, m.crack, m.on, m.outside, m.inside)
@@ -122,19 +141,22 @@ def find_openings(model, state, scratch) -> None:
         )
 
 
-def cut_of_points(model, paths) -> np.ndarray:
-    """Return the share of the crack at each point (points,): below 1 beside smooth tips."""
+def cut_of_points(model, paths, at_tips) -> np.ndarray:
+    """Return the share of the crack at each point (points,): below 1 beside smooth tips.
+
+    at_tips: of Scratch
+    """
     cut = np.ones(len(paths.point))
     if model.tip_nodes is not None:
         smooth = smooth_cracks(model)
-        cut_along_cracks(cut, paths, smooth, model.lattice.width, *model.tip_nodes)
+        cut_along_cracks(cut, paths, smooth, at_tips, model.lattice.width, *model.tip_nodes)
     return cut
 
 
 def move_paths(model, state, scratch) -> None:
     """Move all cracks with the solid."""
     paths = state.paths
-    cut, where = cut_of_points(model, paths), what_surfaces_see(model, scratch)
+    cut, where = cut_of_points(model, paths, scratch.at_tips), what_surfaces_see(model, scratch)
     move_cracks(scratch.seen[0], paths, cut, scratch.grid, *where, model.dt)
 
 

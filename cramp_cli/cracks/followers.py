@@ -7,8 +7,12 @@ it has no slope along the crack, so that nothing shears these particles, and lit
 it. With a jump of its own the node opens some ten times as far as its neighbour behind: the tip is
 a quarter of a cell too long, and comes to rest there some thousand times more slowly than a wave
 passes a cell. So the node has no jump of its own: it follows the nodes a whole number of cells
-behind it (on an oblique crack the mean of those around that place, on its own side, by what moves
-with their jumps).
+behind it (on an oblique crack the mean of those around that place, by what moves with their
+jumps). A jump is that of above against below, so the nodes of either side lead: on a crack that
+crosses a row of nodes near its tip, those behind a follower lie on its other side.
+
+A node just behind an oblique tip may be as weakly held, where it hardly sees the other side: with
+next to nothing that moves with its jump (`FAINT`) it follows as well.
 
 A tip that runs leads nobody: closing tractions keep its nodes from opening far (release.py), and
 each node that it passes would lose what parts its jump from that of the others.
@@ -32,16 +36,20 @@ from cramp_cli.numerics.kernel import inlined_kernel, kernel
 MOST = 32  # nodes of a tip that may follow, or lead: LATERAL and REACH of tip_nodes.py leave 30
 ON_TIP = 1e-9  # cells; a node at the tip is behind it
 LIGHT = 1e-6  # a smaller weight of a node that leads is none
+# Share of its mass that moves with the jump of a node, below which it follows up to a cell behind
+# the tip. From 0.003 to 0.006 K is the same; with none the tip of a crack at 45 degrees jumps by a
+# sixth of a cell when it passes a node.
+FAINT = 0.004
 
 
 class Followers(NamedTuple):
-    """Pairs of rows, one for either side of a crack, whose jump is that of others behind the tip.
+    """Pairs of rows, above and below a crack, whose jump is that of others behind the tip.
 
     A follower without leads has sides that move as one.
     """
 
     count: np.ndarray  # (2,) followers and leads in use
-    follower: np.ndarray  # (followers, 2) row of the node's own side, row across
+    follower: np.ndarray  # (followers, 2) rows above and below the crack
     lead: np.ndarray  # (followers, 4) number of a lead
     weight: np.ndarray  # (followers, 4) what it counts, 0 for none
     row: np.ndarray  # (leads, 2) rows of a lead, as of a follower
@@ -65,36 +73,45 @@ def make_followers(tips: int, dim: int) -> Followers:
 
 @kernel
 def sides_beside_tip(rows, of_crack, node):
-    """Return the rows of a node beside a tip for its own side and the other one, or -1 for none.
+    """Return the rows of a node beside a tip above and below its crack, or -1 for none.
 
     of_crack: contact group of every crack
     """
     crack = rows.tip[node] // 2
     group = of_crack[crack]
     own = find_row(rows, node, group, -1, 0, -1, 0)
-    return own, find_row(rows, node, group, crack, -rows.tip_side[node], -1, 0)
+    across = find_row(rows, node, group, crack, -rows.tip_side[node], -1, 0)
+    return (own, across) if rows.tip_side[node] > 0 else (across, own)
 
 
 @kernel
 def list_followers(followers, rows, paths, running, of_crack, width, lower, strides):
-    """List the nodes ahead of tips that see both sides, and the nodes behind which they follow.
+    """List the nodes at tips that see both sides but do not hold them, and those that they follow.
 
     running: (ends,) of Growth
     """
     followers.count[:] = 0
     for i in range(rows.count[4]):
         node = rows.tipped[i]
-        own, across = sides_beside_tip(rows, of_crack, node)
-        if min(own, across) < 0 or running[rows.tip[node]]:
+        above, below = sides_beside_tip(rows, of_crack, node)
+        if min(above, below) < 0 or running[rows.tip[node]]:
             continue
         x, y, ahead, ex, ey = _from_tip(rows, paths, node, width, lower, strides)
-        back = ceil(ahead / width - ON_TIP)
-        if back > 0:
+        if follows(rows, node, ahead / width):
+            back = max(ceil(ahead / width - ON_TIP), 1)
             f = followers.count[0]
             followers.count[0] += 1
-            followers.follower[f, 0], followers.follower[f, 1] = own, across
+            followers.follower[f, 0], followers.follower[f, 1] = above, below
             place = (x - back * ex * width, y - back * ey * width)
             _find_leads(followers, f, rows, paths, of_crack, node, place, width, lower, strides)
+
+
+@inlined_kernel
+def follows(rows, node, ahead):
+    """Return whether a node has no jump of its own; ahead: of its tip (cells)."""
+    seen = rows.tip_seen[node, 0] + rows.tip_seen[node, 1]
+    faint = inertia_of_jump(rows, node) < FAINT * seen
+    return ahead > ON_TIP or (faint and ahead > -1.0)
 
 
 @kernel
@@ -110,7 +127,7 @@ def _from_tip(rows, paths, node, width, lower, strides):
 
 @kernel
 def _find_leads(followers, f, rows, paths, of_crack, node, place, width, lower, strides):
-    """Let follower f follow those of the four nodes around a place that lie behind the tip.
+    """Let follower f follow those of the four nodes around a place that have jumps of their own.
 
     node: that of the follower; place: behind it (m)
     """
@@ -124,14 +141,12 @@ def _find_leads(followers, f, rows, paths, of_crack, node, place, width, lower, 
         weight[f, k], lead[f, k] = 0.0, 0
         if w < LIGHT or rows.tip[other] != rows.tip[node]:
             continue
-        if rows.tip_side[other] != rows.tip_side[node]:
-            continue
-        own, across = sides_beside_tip(rows, of_crack, other)
+        above, below = sides_beside_tip(rows, of_crack, other)
         ahead = _from_tip(rows, paths, other, width, lower, strides)[2]
         w *= inertia_of_jump(rows, other)  # a node that hardly sees the other side leads nowhere
-        if w > 0.0 and min(own, across) >= 0 and ahead <= ON_TIP * width:
+        if w > 0.0 and min(above, below) >= 0 and not follows(rows, other, ahead / width):
             weight[f, k] = w
-            lead[f, k] = _number_of_lead(followers, rows, other, own, across)
+            lead[f, k] = _number_of_lead(followers, rows, other, above, below)
             total += w
     for k in range(4):
         weight[f, k] /= total if total > 0.0 else 1.0
@@ -139,13 +154,13 @@ def _find_leads(followers, f, rows, paths, of_crack, node, place, width, lower, 
 
 
 @kernel
-def _number_of_lead(followers, rows, node, own, across):
+def _number_of_lead(followers, rows, node, above, below):
     """Return the number of the lead with these rows; a new one if there is none."""
     row, n = followers.row, followers.count[1]
     for k in range(n):
-        if row[k, 0] == own and row[k, 1] == across:
+        if row[k, 0] == above and row[k, 1] == below:
             return k
-    row[n, 0], row[n, 1] = own, across
+    row[n, 0], row[n, 1] = above, below
     near, far = rows.tip_seen[node, 0], rows.tip_seen[node, 1]
     followers.inertia[n] = near * far / (near + far)
     followers.count[1] += 1

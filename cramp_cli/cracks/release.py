@@ -45,15 +45,15 @@ def _resist(grid, rows, paths, of_crack, tip, free, width, lower, strides, dt):
         node = rows.tipped[i]
         if rows.tip[node] != tip:
             continue
-        own, across = sides_beside_tip(rows, of_crack, node)
-        if min(own, across) < 0 or mass[own] <= 0.0 or mass[across] <= 0.0:
+        above, below = sides_beside_tip(rows, of_crack, node)
+        if min(above, below) < 0 or mass[above] <= 0.0 or mass[below] <= 0.0:
             continue
         x = lower[0] + node % strides[1] * width
         y = lower[1] + node // strides[1] * width
         ahead = along_crack(paths.point, first, last, at, x, y, FAR * width)[0]
         share = RESISTED * min(max((free + ahead / width) / (FREE - HELD), 0.0), 1.0)
         if share > 0.0:
-            _bring_together(grid, own, across, share, len(strides), dt)
+            _bring_together(grid, above, below, share, len(strides), dt)
 
 
 @kernel

@@ -38,17 +38,22 @@ def find_row(rows, node, group, a, side_a, b, side_b):
 
 
 @inlined_kernel
+def row_told(rows, node, group, crack, side, other, other_side):
+    """Return the row that a crack tells from a side, on a side of another (-1 for none), or -1."""
+    if other < 0:
+        return find_row(rows, node, group, crack, side, -1, 0)
+    if crack < other:
+        return find_row(rows, node, group, crack, side, other, other_side)
+    return find_row(rows, node, group, other, other_side, crack, side)
+
+
+@inlined_kernel
 def row_on_side(rows, node, group, crack, side, other, other_side):
     """Return the row of a side of a crack, on a side of another crack (-1 for none), or -1.
 
     It is the row that these cracks tell from these sides, else the one without the first crack.
     """
-    if other < 0:
-        row = find_row(rows, node, group, crack, side, -1, 0)
-    elif crack < other:
-        row = find_row(rows, node, group, crack, side, other, other_side)
-    else:
-        row = find_row(rows, node, group, other, other_side, crack, side)
+    row = row_told(rows, node, group, crack, side, other, other_side)
     return row if row >= 0 else find_row(rows, node, group, other, other_side, -1, 0)
 
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from cramp_cli.cracks.crossing import double_area
 from cramp_cli.cracks.segments import ON_CRACK
-from cramp_cli.numerics.kernel import kernel
+from cramp_cli.numerics.kernel import inlined_kernel, kernel
 from cramp_cli.state.paths import TIP
 
 REACH = 5  # cells around a tip whose nodes are looked at
@@ -71,22 +71,29 @@ def rise(x, ramp):
     return x / ramp, 0.5 * x * x / ramp
 
 
+@inlined_kernel
+def mean_half(half):
+    """Return the mean half size of a particle (cells): a crack begins so far behind its front."""
+    return 0.5 * (half[0] + half[1])
+
+
 @kernel
-def cut_share(paths, tip, x, y, half, width, centre, ramp):
+def cut_share(paths, tip, x, y, half, width, tip_nodes):
     """Return the cut share of a particle at (x, y) and its gradient (per cell).
 
     Both are averages over the particle, as in GIMP: a particle that the ramp only grazes must not
     feel the whole gradient, or the stress ahead of the tip would be released.
 
-    tip: 2 * crack + end; half: half size of the particle along each axis (cells); centre: where
-    ahead of the tip the share begins to rise (cells); ramp: cells from whole to cut
+    tip: 2 * crack + end; half: half size of the particle along each axis (cells)
+    tip_nodes: of TipNodes
     """
+    front, ramp = tip_nodes
     crack = tip // 2
     first, last = paths.start[crack], paths.start[crack + 1] - 1
     at = first if tip % 2 == 0 else last
     ahead, _, _, ex, ey = along_crack(paths.point, first, last, at, x, y, FAR * width)
     reach = abs(ex) * half[0] + abs(ey) * half[1]
-    behind = centre - ahead / width
+    behind = front - mean_half(half) - ahead / width
     if behind - reach >= ramp:
         return 1.0, 0.0, 0.0
     low, low_sum = rise(behind - reach, ramp)
@@ -100,8 +107,11 @@ def cut_share(paths, tip, x, y, half, width, centre, ramp):
 
 
 @kernel
-def cut_along_cracks(cut, paths, smooth, width, centre, ramp):
-    """Set the cut share (points,) of all points of all cracks: 1 but beside smooth tips."""
+def cut_along_cracks(cut, paths, smooth, at_tips, width, front, ramp):
+    """Set the cut share (points,) of all points of all cracks: 1 but beside smooth tips.
+
+    at_tips: of Scratch; a point is cut as the centre of a particle of that size
+    """
     point, start = paths.point, paths.start
     cut[:] = 1.0
     for tip in range(2 * (len(start) - 1)):
@@ -109,7 +119,7 @@ def cut_along_cracks(cut, paths, smooth, width, centre, ramp):
         if paths.ends[c, end] != TIP or not smooth[c]:
             continue
         k, step = (start[c], 1) if end == 0 else (start[c + 1] - 1, -1)
-        behind = centre * width
+        behind = (front - at_tips[tip, 1]) * width
         while start[c] <= k < start[c + 1] and behind < ramp * width:
             cut[k] = min(cut[k], behind / (ramp * width))
             if start[c] <= k + step < start[c + 1]:

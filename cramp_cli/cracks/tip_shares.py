@@ -11,9 +11,11 @@ the node has its one velocity: no motion is left that the particles hardly feel.
 for what is whole has such motions: the tip would creep under a constant load.)
 """
 
+import numpy as np
+
 from cramp_cli.cracks.crossing import double_area
 from cramp_cli.cracks.segments import ON_CRACK
-from cramp_cli.cracks.tip_nodes import FAR, along_crack, cut_share
+from cramp_cli.cracks.tip_nodes import FAR, along_crack, cut_share, mean_half
 from cramp_cli.numerics.kernel import inlined_kernel, kernel
 from cramp_cli.shapes.shape import offsets, place_of, sees, weights
 
@@ -40,14 +42,17 @@ def inertia_of_jump(rows, node):
 
 
 @kernel
-def sum_sides(rows, stencil, paths, particles, of_body, of_crack, shape, strides, width, tip_nodes):
+def sum_sides(rows, at_tips, stencil, paths, particles, groups, part, shape, place, tip_nodes):
     """Sum what every node beside a tip sees on both sides; mark the nodes that see a cut.
 
-    of_body, of_crack: contact group of each; tip_nodes: of TipNodes
+    at_tips: of Scratch; groups: contact group of every body, of every crack
+    part: first of the listed particles of a block, and the one after its last
+    place: strides, width
     """
+    (of_body, of_crack), (strides, width) = groups, place
     position, mass, body = particles.position, particles.mass, particles.body
     steps = offsets(strides, shape)
-    for candidate in range(stencil.count[0]):
+    for candidate in range(part[0], part[1]):
         p = stencil.listed[candidate]
         beside = False
         for k in range(len(steps)):
@@ -66,12 +71,21 @@ def sum_sides(rows, stencil, paths, particles, of_body, of_crack, shape, strides
                 known = tip
                 x, y = position[p, 0], position[p, 1]
                 side = _side_of(paths, tip, x, y, width)
-                ramp = (tip_nodes.centre, tip_nodes.ramp)
-                cut, _, _ = cut_share(paths, tip, x, y, shape.half, width, *ramp)
+                cut, _, _ = cut_share(paths, tip, x, y, shape.half, width, tip_nodes)
+                note_size(at_tips, paths, tip, x, y, mean_half(shape.half), width)
             there = 0 if side == rows.tip_side[node] else 1
             rows.tip_seen[node, there] += S[k] * mass[p]
             rows.tip_cut[node, there] += S[k] * mass[p] * cut * cut
             rows.tip_split[node] = rows.tip_split[node] or cut > 0.0
+
+
+@inlined_kernel
+def note_size(at_tips, paths, tip, x, y, half, width):
+    """Note the half size (cells) of a particle if none was nearer to its tip."""
+    at = paths.start[tip // 2] if tip % 2 == 0 else paths.start[tip // 2 + 1] - 1
+    away = np.hypot(x - paths.point[at, 0], y - paths.point[at, 1]) / width
+    if away < at_tips[tip, 0] or (away == at_tips[tip, 0] and half > at_tips[tip, 1]):
+        at_tips[tip, 0], at_tips[tip, 1] = away, half
 
 
 @kernel

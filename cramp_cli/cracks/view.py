@@ -11,7 +11,7 @@ import numpy as np
 
 from cramp_cli.cracks.crossing import crossed_cracks
 from cramp_cli.cracks.lines import NO_CRACK, of_group
-from cramp_cli.cracks.rows import find_row, row_on_side
+from cramp_cli.cracks.rows import find_row, row_on_side, row_told
 from cramp_cli.cracks.segments import ON_CRACK
 from cramp_cli.numerics.kernel import inlined_kernel, kernel
 from cramp_cli.numerics.vector import dot
@@ -76,8 +76,9 @@ def look_from(seen, even, paths, k, crack, side, normal, cut, mass, solid, place
             if near + far <= 0.0:
                 continue
             # as a particle there: the share of the side, and of the mean of both sides
-            own, felt = cut + (1.0 - cut) * near / (near + far), near + (1.0 - cut) * far
-            for row, share in ((mine, own), (facing, 1.0 - own)):
+            own, felt = near / (near + far), near + (1.0 - cut) * far
+            mean, alone = (1.0 - cut) * own, cut * min(own / LIGHT, 1.0)
+            for row, share in ((mine, alone + mean), (facing, 1.0 - cut - mean)):
                 if row >= 0 and share > 0.0 and mass[row] > 0.0:
                     m = mass[row] if even else felt
                     seen.row[count], seen.weight[count], seen.mass[count] = row, S * share, m
@@ -111,8 +112,9 @@ def rows_of_surface(rows, crossed, of_crack, crack, side, node):
     """Return the rows of a node for one side of a crack and for the other, or -1.
 
     Where rows of the node are told by this crack they decide: the row of the side, else the one
-    without the crack. Without such rows the cracks do that the line to the node has crossed. The
-    other side counts beside a tip only.
+    without the crack. Without such rows the cracks do that the line to the node has crossed. Beside
+    a tip the side of the node is known, and a side that it does not see has no row; there only the
+    other side counts as well.
     """
     group = of_crack[crack]
     a, side_a, _, b, side_b, _, _ = of_group(crossed, of_crack, group)
@@ -120,11 +122,11 @@ def rows_of_surface(rows, crossed, of_crack, crack, side, node):
     if not beside_tip and not is_told_by(rows, node, crack):
         return find_row(rows, node, group, a, side_a, b, side_b), -1
     other, other_side = (b, side_b) if a == crack else (a, side_a)
-    mine = row_on_side(rows, node, group, crack, side, other, other_side)
     if not beside_tip:
-        return mine, -1
-    facing = row_on_side(rows, node, group, crack, -side, other, other_side)
-    return mine, facing if facing != mine else -1
+        return row_on_side(rows, node, group, crack, side, other, other_side), -1
+    own = find_row(rows, node, group, other, other_side, -1, 0)
+    across = row_told(rows, node, group, crack, -rows.tip_side[node], other, other_side)
+    return (own, across) if side == rows.tip_side[node] else (across, own)
 
 
 @inlined_kernel

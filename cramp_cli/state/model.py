@@ -45,7 +45,7 @@ SCHEMES = {
 class TipNodes(NamedTuple):
     """How particles beside a tip pass from whole to cut (cracks/tip_nodes.py)."""
 
-    centre: float  # where ahead of the tip the cut share begins to rise (cells)
+    front: float  # where ahead of the tip the front of a particle begins to be cut (cells)
     ramp: float  # cells of the crack over which it rises
 
 
@@ -127,6 +127,7 @@ class Scratch:
     per_band: np.ndarray  # (bands,) sums over the particles of a band
     seen: tuple  # room for what the surfaces of a crack point see, above and below
     followers: Any  # nodes ahead of tips that open as those behind do
+    at_tips: np.ndarray  # (tips, 2) of the particle nearest to each: distance, half size (cells)
     shared: list = field(default_factory=list)  # for each block: its particles, shared out
     half: np.ndarray | None = None  # that of the model
     index: np.ndarray | None = None  # (n,) where the particle of each number is

@@ -10,6 +10,7 @@ from cramp_cli.cracks.segments import make_segments
 from cramp_cli.cracks.tip_nodes import cut_share
 from cramp_cli.shapes.shape import offsets, place_of, weights
 from cramp_cli.state.grid import make_grid
+from cramp_cli.state.model import TipNodes
 from cramp_cli.state.paths import PLAIN, make_paths
 from cramp_cli.state.stencil import make_lists
 from cramp_cli.transfer.sums import sum_mass_and_momentum
@@ -304,13 +305,13 @@ def test_part_cut_particles_give_their_whole_weight(tip, height, shape):
 def test_the_cut_share_rises_behind_a_tip(half, ramp):
     """From 0 to 1; its gradient is the difference of shares, but for bends of their slope.
 
-    The crack ends at 4.3, the share begins to rise 0.1 cells ahead of it.
+    The crack ends at 4.3, the share of a centre begins to rise 0.1 cells ahead of it.
     """
     line = np.array([[0.0, 4.0], [2.0, 4.0], [4.3, 4.0]])
     paths = make_paths([line], [(PLAIN, PLAIN)], [0], [(-1, 0)], 2)
 
     def share(x):
-        return cut_share(paths, 1, x, 4.2, (half, half), 1.0, 0.1, ramp)
+        return cut_share(paths, 1, x, 4.2, (half, half), 1.0, TipNodes(0.1 + half, ramp))
 
     begin, step = 4.4 + half, 1e-5
     assert share(begin) == (0.0, 0.0, 0.0)
