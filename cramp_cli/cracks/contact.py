@@ -193,7 +193,7 @@ def touch(grid, rows, laws, strides, dt, stage):
 def touch_across(grid, rows, laws, strides, dt, stage, row, slot):
     """Contact of a row with the row on the other side of the crack in `slot`."""
     e = row - len(rows.first)
-    crack = rows.crack[e, slot]
+    crack = rows.owner[e, slot]
     kind = laws.kind[crack]
     if kind == IGNORE:
         return 0.0
