@@ -14,7 +14,7 @@ BENT = 1e-6  # rad; a smaller turn is no corner
 
 
 def join(lines, cracks, groups, width):
-    """Return lines (n, 2) of cracks with common points at junctions, and the junction of each point.
+    """Return the lines of cracks with common points at junctions, and the junction of each point.
 
     lines: of the cracks, m; cracks: their sections; groups: contact group of each
     returns: lines, and (points,) the number of the junction at every point of all, -1 for none

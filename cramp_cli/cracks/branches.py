@@ -1,4 +1,4 @@
-"""Branches: the pieces of cracks between junctions. They tell the sides near a crack, not the cracks.
+"""Branches: the pieces of cracks between junctions. Branches, not cracks, tell the sides.
 
 At a junction the arms of one or several cracks meet in a point. Which of the sectors between them a
 particle and a node lie in must not hang on how the deck writes the arms: one crack that bends and
@@ -106,13 +106,13 @@ def _find_down(segments, j, hair):
     best, way = -1.0, (0.0, 0.0)
     for i in range(first, last):
         ax, ay = out_of_joint(segments, segments.arms[i])
-        gap, after = 2.0 * np.pi, (ax, ay)
+        gap = 2.0 * np.pi
         for k in range(first, last):
             bx, by = out_of_joint(segments, segments.arms[k])
             angle = np.arctan2(ax * by - ay * bx, ax * bx + ay * by)
             angle += 2.0 * np.pi if angle <= 0.0 else 0.0
             if k != i and angle < gap:
-                gap, after = angle, (bx, by)
+                gap = angle
         below = last - first == 2 and left_of_arm(segments, segments.arms[i]) < 0
         if gap > best + TIE or below:
             c, s = np.cos(0.5 * gap), np.sin(0.5 * gap)
@@ -125,7 +125,7 @@ def _find_down(segments, j, hair):
 
 @inlined_kernel
 def off_joint(segments, x, y, hair):
-    """Return a point moved a hair (m) into a sector of the junction it lies on, if it lies on one."""
+    """Return a point moved a hair (m) into a sector of the junction on which it lies, if any."""
     ends, down = segments.ends, segments.down
     for j in range(segments.used[3]):
         arm = segments.arms[segments.first_arm[j]]

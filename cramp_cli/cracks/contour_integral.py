@@ -31,7 +31,8 @@ def integrate_contour(model, state, scratch, branch, tip, block, gravity) -> Con
 
     With one term it is the line integral alone, with two the area integral of the inertia as well.
 
-    branch: that of the crack at the tip; tip: position (m); block: particles of the material at the tip; gravity: m/s^2
+    branch: that of the crack at the tip; tip: position (m); block: particles of the material there
+    gravity: m/s^2
     """
     lattice, cells, terms = model.lattice, model.fracture.cells, model.fracture.terms
     centre = [round((x - low) / lattice.width) for x, low in zip(tip, lattice.lower, strict=True)]

@@ -15,7 +15,7 @@ from cramp_cli.schema.section import Wrong
 MEETS = 0.1  # cells; an end this near to another crack lies on it
 SURFACE = 0.25  # cells; a ligament shorter than this is none
 AT = 0.1  # cells; a `tip` nearer to the surface than this is at it
-DEEP = 0.5  # cells; an `edge` further inside than this is not at the surface
+BESIDE = 0.5  # cells beside a symmetry plane; there a crack in the plane is looked at
 KEYS = (("start", 0, 1), ("end", -1, -2))  # key, place of the end in the line, of the one before
 
 
@@ -70,10 +70,11 @@ def _contradiction(word: str, spot: Spot, cell: float) -> str:
     if spot.plane:
         fits = word == "edge"
         return "" if fits else f"'{word}' lies on the symmetry plane {spot.plane}; write 'edge'"
-    if word == "edge" and spot.depth > DEEP * cell:
+    if word == "edge" and spot.depth > SURFACE * cell:
         return f"'edge' is {away} inside the body, and would cut on from there; write 'tip'"
-    if word != "edge" and spot.depth < AT * cell:
-        where = "outside every body" if spot.depth < -AT * cell else "at the surface of the body"
+    outside = spot.depth < -AT * cell
+    if word != "edge" and spot.depth < AT * cell and (word == "tip" or not outside):
+        where = "outside every body" if outside else "at the surface of the body"
         return f"'{word}' lies {where}; write 'edge'"
     return ""
 
@@ -101,7 +102,10 @@ class _Solids:
 
     def __init__(self, deck: Any) -> None:
         self._deck, self._cell = deck, deck.grid.cell
-        self._group = {crack.name: group_of_crack(deck, crack) for crack in deck.cracks}
+        together = deck.contact.bodies is None
+        self._group = {
+            crack.name: 0 if together else group_of_crack(deck, crack) for crack in deck.cracks
+        }
         self._solid: dict[int, Any] = {}
 
     def spot(self, crack: Any, at: int, behind: int) -> Spot:
@@ -139,7 +143,7 @@ class _Solids:
 
         solid = self._solid_of(self._group[crack.name])
         depths = []
-        for x, y in _beside(point, along, 2.0 * DEEP * self._cell):
+        for x, y in _beside(point, along, BESIDE * self._cell):
             spot = shapely.Point(x, y)
             inside = bool(shapely.covers(solid, spot))
             away = shapely.distance(shapely.boundary(solid), spot)
