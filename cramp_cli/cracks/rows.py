@@ -14,7 +14,7 @@ def forget_rows(rows):
     """Remove all extra rows."""
     for i in range(rows.count[1]):
         rows.first[rows.shared[i]] = -1
-    rows.count[:4] = 0
+    rows.count[:4] = rows.count[5] = 0
 
 
 @inlined_kernel

@@ -163,3 +163,36 @@ def test_left_of_an_arm_is_above_where_it_runs_out():
     segments = scratch.segments
     arms = segments.arms[: segments.first_arm[1]]
     assert [left_of_arm(segments, int(arm)) for arm in arms] == [-1, 1, -1]
+
+
+def test_sectors_side_by_side_are_paired_across_the_arm_between_them():
+    """A node in one of three sectors sees the other two; the third arm lies between these."""
+    _, _, scratch = sorted_out(cracks_along(WAYS["three"]))
+    rows, segments = scratch.rows, scratch.segments
+    assert rows.count[5] > 0
+    arm_of = {int(segments.crack[arm // 2]): int(arm) for arm in segments.arms[:3]}
+    for n in range(rows.count[5]):
+        labels = [rows.crack[row - len(rows.first), 0] for row in rows.pair[n]]
+        crack = int(rows.pair_crack[n])
+        assert sorted([*map(int, labels), crack]) == [0, 1, 2]
+        arm = arm_of[crack] // 2
+        x0, y0, x1, y1 = segments.ends[arm]
+        np.testing.assert_allclose(rows.pair_normal[n], [y1 - y0, x0 - x1])
+
+
+@pytest.mark.parametrize("written", ["three", "one bent, one"])
+def test_faces_at_a_junction_press_on_each_other(written):
+    """A body that is pressed together on closed arms bears as one without cracks."""
+    cracks = [
+        {"name": f"c{n}", "contact": {"law": "stick"}, **c}
+        for n, c in enumerate(cracks_along(WAYS[written]))
+    ]
+    inward = []
+    for some in (cracks, []):
+        model, state, scratch = build_deck(SQUARE, cracks=some)
+        state.particles.velocity[:] = -0.01 * (state.particles.position - 4.0)
+        advance(model, state, scratch, 12)
+        near = np.hypot(*(state.particles.position - 4.0).T) < 1.5
+        inward.append(state.particles.stress[near].mean(axis=0))
+    assert inward[1][0] < 0.0
+    np.testing.assert_allclose(inward[0], inward[1], rtol=0.03, atol=0.03 * abs(inward[1][0]))
