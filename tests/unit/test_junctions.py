@@ -10,6 +10,8 @@ from support import advance, build_deck
 from test_rows import SQUARE, pairs, sorted_out
 
 from cramp_cli.cracks.branches import left_of_arm
+from cramp_cli.cracks.room import find_room, through_joints
+from cramp_cli.cracks.tips import tips_of
 from cramp_cli.state.paths import PLAIN, TIP
 
 CLEAR = 1e-6  # cells; particles nearer to an arm than this are not asked for their sector
@@ -196,3 +198,20 @@ def test_faces_at_a_junction_press_on_each_other(written):
         inward.append(state.particles.stress[near].mean(axis=0))
     assert inward[1][0] < 0.0
     np.testing.assert_allclose(inward[0], inward[1], rtol=0.03, atol=0.03 * abs(inward[1][0]))
+
+
+def test_a_domain_goes_through_a_joint_as_along_one_crack():
+    """Two cracks end to end leave a tip the room of one crack; a third arm ends the domain."""
+    _, whole, _ = sorted_out(cracks_along([[(0, 4), (6, 4)]]))
+    model, parts, _ = sorted_out(cracks_along([[(0, 4), (3, 4)], [(6, 4), (3, 4)]]))
+    (tip,) = tips_of(parts.paths)
+    points, own = through_joints(parts.paths, tip)
+    assert own == [1, 0]
+    np.testing.assert_allclose(
+        parts.paths.origin[points], whole.paths.origin[::-1], rtol=0, atol=1e-14
+    )
+    assert find_room(model, parts.paths, tip, (6.0, 4.0))[1] != "crack c0"
+    arms = [[(0, 4), (3, 4)], [(6, 4), (3, 4)], [(3, 4), (3, 6)]]
+    model, three, _ = sorted_out(cracks_along(arms))
+    tip = next(one for one in tips_of(three.paths) if one.crack == 1)
+    assert find_room(model, three.paths, tip, (6.0, 4.0)) == (3.0, "crack c0")
