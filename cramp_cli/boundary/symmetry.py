@@ -43,7 +43,8 @@ def image_row(rows, nodes, row, image, crack):
     e = row - nodes
     a, b = rows.crack[e, 0], rows.crack[e, 1]
     first, second = rows.side[e, 0], rows.side[e, 1]
-    first, second = (-first if a == crack else first), (-second if b == crack else second)
+    first = -first if rows.owner[e, 0] == crack else first
+    second = -second if rows.owner[e, 1] == crack else second
     return find_row(rows, image, rows.group[e], a, first, b, second if b >= 0 else 0)
 
 
@@ -56,9 +57,9 @@ def image_on_plane(rows, row, crack):
     if crack < 0:
         return -1
     e = row - len(rows.first)
-    if rows.crack[e, 0] == crack:
+    if rows.owner[e, 0] == crack:
         return row_across(rows, e, 0)
-    return row_across(rows, e, 1) if rows.crack[e, 1] == crack else -1
+    return row_across(rows, e, 1) if rows.owner[e, 1] == crack else -1
 
 
 @kernel
@@ -109,7 +110,7 @@ def double_on(field, rows, crack, on, free):
         row = on[i]
         while row >= 0:
             beyond = row >= nodes and (
-                rows.crack[row - nodes, 0] == crack or rows.crack[row - nodes, 1] == crack
+                rows.owner[row - nodes, 0] == crack or rows.owner[row - nodes, 1] == crack
             )
             if not free[i] and not (beyond and crack >= 0):
                 for d in range(field.shape[1]):
@@ -154,7 +155,7 @@ def stop_normal(field, rows, axis, crack, on, free):
         row = on[i]
         while row >= 0:
             beyond = row >= nodes and (
-                rows.crack[row - nodes, 0] == crack or rows.crack[row - nodes, 1] == crack
+                rows.owner[row - nodes, 0] == crack or rows.owner[row - nodes, 1] == crack
             )
             if not free[i] and not (beyond and crack >= 0):
                 taken += field[row, axis]

@@ -4,6 +4,7 @@ from math import ceil
 
 from cramp_cli.build.laws import law_of
 from cramp_cli.build.model import time_step, wave_speed
+from cramp_cli.deck.ends import told_ends
 from cramp_cli.deck.size import size_of
 from cramp_cli.deck.solids import Isotropic
 from cramp_cli.materials.law import memory
@@ -41,6 +42,7 @@ def estimate(deck) -> dict:
     }
     for name, material in deck.materials.items():
         facts |= _material_facts(deck, name, material)
+    facts |= told_ends(deck)
     return facts | {
         "memory_bytes": size.memory_bytes + int(size.particles * remembered),
         "disk_bytes": int(size.particles * (written + 3 * (CHECKPOINT_BYTES + remembered))),

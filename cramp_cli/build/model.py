@@ -8,6 +8,7 @@ from cramp_cli.build.contact import build_body_contact, build_crack_laws, build_
 from cramp_cli.build.covered import crack_line
 from cramp_cli.build.events import EventList
 from cramp_cli.build.growth import build_propagation
+from cramp_cli.build.junctions import join
 from cramp_cli.build.laws import law_of
 from cramp_cli.build.seeds import Seeds, are_sized, seed_bodies
 from cramp_cli.contact.adhesion import no_bonds
@@ -43,7 +44,7 @@ RAMP = 0.8  # cells of a crack over which a smooth tip fades
 # Cells ahead of a smooth tip at which the first particles feel it. With both numbers K of an edge
 # crack of ten cells, a/W = 0.5, is right within 0.1 % on average over a cell, and changes least.
 FRONT = 0.42
-ENDS = {"plain": PLAIN, "edge": EDGE, "tip": TIP}
+ENDS = {"plain": PLAIN, "junction": PLAIN, "edge": EDGE, "tip": TIP}
 RIGID = ""  # stands for the material of rigid bodies
 MOST_STEPS = 1e12  # years of computing, long before time stops to move by round-off
 
@@ -207,10 +208,12 @@ def _update(solver):
 
 def _paths(deck: Deck, lattice: Lattice) -> Paths:
     lines = [crack_line(deck, crack) for crack in deck.cracks]
+    lines, joint = join(lines, deck.cracks, build_groups(deck).of_crack, lattice.width)
     return make_paths(
         lines,
         ends=[(ENDS[crack.start], ENDS[crack.end]) for crack in deck.cracks],
         fixed=[crack.motion == "fixed" for crack in deck.cracks],
         mirror=[(-1, 0)] * len(lines),
         dim=len(lattice.cells),
+        joint=joint,
     )

@@ -87,3 +87,29 @@ def move_cracks(seen, paths, cut, grid, solid, place, dt):
                 above[k, 1] += ay
             point[k, 0] += 0.5 * (ax + bx)
             point[k, 1] += 0.5 * (ay + by)
+    hold_joints(paths, solid[1])
+
+
+@kernel
+def hold_joints(paths, segments):
+    """Keep the arms of every junction together: their ends move by the mean of all.
+
+    The plane alone; surfaces go with their own sectors. A crack that is fixed holds its junctions.
+    """
+    point, crack, arms = paths.point, segments.crack, segments.arms
+    for j in range(segments.used[3]):
+        first, last = segments.first_arm[j], segments.first_arm[j + 1]
+        x, y, share = 0.0, 0.0, 1.0 / (last - first)
+        for i in range(first, last):
+            s = arms[i] // 2
+            k = s + crack[s] + arms[i] % 2
+            x, y = x + share * point[k, 0], y + share * point[k, 1]
+        for i in range(first, last):
+            s = arms[i] // 2
+            k = s + crack[s] + arms[i] % 2
+            if paths.fixed[crack[s]]:
+                x, y = point[k, 0], point[k, 1]
+        for i in range(first, last):
+            s = arms[i] // 2
+            k = s + crack[s] + arms[i] % 2
+            point[k, 0], point[k, 1] = x, y

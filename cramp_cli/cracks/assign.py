@@ -7,10 +7,11 @@ goes to the row of its side, the rest to both sides (tip_shares.py).
 
 import numpy as np
 
+from cramp_cli.cracks.branches import off_joint
 from cramp_cli.cracks.crossing import hidden_nodes, off_crack
 from cramp_cli.cracks.lines import cracks_between
 from cramp_cli.cracks.rows import add_normal, join_row
-from cramp_cli.cracks.segments import ON_CRACK
+from cramp_cli.cracks.segments import HAIR, ON_CRACK
 from cramp_cli.cracks.tip_nodes import cut_share
 from cramp_cli.cracks.tip_shares import far_share
 from cramp_cli.numerics.kernel import inlined_kernel, kernel
@@ -58,18 +59,18 @@ def add_entry(stencil, line, k, row, share, bx, by):
 
 
 @inlined_kernel
-def give_row(stencil, rows, ends, line, k, node, group, crossed):
+def give_row(stencil, rows, segments, line, k, node, group, crossed):
     """Give the pair of a particle and its node `k` the row of the cracks it crosses."""
     a, side_a, seg_a, b, side_b, seg_b, more = crossed
     rows.count[3] += more
     row = join_row(rows, node, group, a, side_a, b, side_b)
-    add_normal(rows, row, a, ends, seg_a)
-    add_normal(rows, row, b, ends, seg_b)
+    add_normal(rows, row, a, segments, seg_a)
+    add_normal(rows, row, b, segments, seg_b)
     add_entry(stencil, line, k, row, 1.0, 0.0, 0.0)
 
 
 @inlined_kernel
-def give_shares(stencil, rows, ends, line, k, node, group, crossed, cut, gx, gy):
+def give_shares(stencil, rows, segments, line, k, node, group, crossed, cut, gx, gy):
     """Give the pair of a particle and its node `k` beside a tip its rows.
 
     The cut share goes to the row of the side of the particle, the rest to the rows of both sides as
@@ -77,7 +78,7 @@ def give_shares(stencil, rows, ends, line, k, node, group, crossed, cut, gx, gy)
     """
     a, side_a, seg_a, b, side_b, seg_b, more = crossed
     rows.count[3] += more
-    c, across = rows.tip[node] // 2, a == rows.tip[node] // 2
+    c, across = rows.tip_branch[node], a == rows.tip_branch[node]
     if across:
         a, side_a, seg_a, b, side_b, seg_b = b, side_b, seg_b, -1, 0, -1
     elif b == c:
@@ -87,18 +88,18 @@ def give_shares(stencil, rows, ends, line, k, node, group, crossed, cut, gx, gy)
     q, gain = (cut + (1.0 - cut) * far, 1.0 - far) if across else ((1.0 - cut) * far, -far)
     if q < 1.0:
         row = join_row(rows, node, group, a, side_a, b, side_b)
-        add_normal(rows, row, a, ends, seg_a)
-        add_normal(rows, row, b, ends, seg_b)
+        add_normal(rows, row, a, segments, seg_a)
+        add_normal(rows, row, b, segments, seg_b)
         add_entry(stencil, line, k, row, 1.0 - q, -gain * gx, -gain * gy)
     if q > 0.0:
         rows.count[3] += b >= 0
-        side, seg = -rows.tip_side[node], rows.tip_segment[node]
+        side, seg = -rows.tip_side[node] * rows.tip_turn[node], rows.tip_segment[node]
         if a < 0 or c < a:
             row = join_row(rows, node, group, c, side, a, side_a)
         else:
             row = join_row(rows, node, group, a, side_a, c, side)
-        add_normal(rows, row, c, ends, seg)
-        add_normal(rows, row, a, ends, seg_a)
+        add_normal(rows, row, c, segments, seg)
+        add_normal(rows, row, a, segments, seg_a)
         add_entry(stencil, line, k, row, q, gain * gx, gain * gy)
 
 
@@ -145,6 +146,7 @@ def assign_rows(
             continue
         listed[line], stencil.near[p], stencil.entries[line] = p, line, 0
         if unsure:
+            x, y = off_joint(segments, x, y, HAIR * width)
             x, y = off_crack(segments, cell, x, y, tolerance)
         known, cut, gx, gy = -1, 1.0, 0.0, 0.0
         for k in range(len(steps)):
@@ -154,15 +156,16 @@ def assign_rows(
             node = first + steps[k]
             tip = rows.tip[node]
             tip = -1 if tip >= 0 and of_crack[tip // 2] != group else tip
+            beside = rows.tip_branch[node] if tip >= 0 else -1
             crossed = cracks_between(
-                segments, cell, hidden, unsure, k, (x, y), n, tip, of_crack, group, tolerance
+                segments, cell, hidden, unsure, k, (x, y), n, beside, of_crack, group, tolerance
             )
             if tip < 0:
-                give_row(stencil, rows, segments.ends, line, k, node, group, crossed)
+                give_row(stencil, rows, segments, line, k, node, group, crossed)
                 continue
             if tip != known:
                 known = tip
                 cut, gx, gy = cut_share(paths, tip, x, y, shape.half, width, tip_nodes)
-            give_shares(stencil, rows, segments.ends, line, k, node, group, crossed, cut, gx, gy)
+            give_shares(stencil, rows, segments, line, k, node, group, crossed, cut, gx, gy)
         line += 1
     return line

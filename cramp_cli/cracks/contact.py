@@ -186,22 +186,53 @@ def touch(grid, rows, laws, strides, dt, stage):
                     for slot in range(crossings):
                         friction += touch_across(grid, rows, laws, strides, dt, stage, row, slot)
                 row = rows.next[e]
+    for i in range(rows.count[5]):
+        friction += touch_sectors(grid, rows, laws, strides, dt, stage, i)
     return friction
+
+
+@kernel
+def touch_sectors(grid, rows, laws, strides, dt, stage, i):
+    """Contact of pair `i` of sectors beside a junction (sectors.py)."""
+    crack, a, b = rows.pair_crack[i], rows.pair[i, 0], rows.pair[i, 1]
+    if laws.kind[crack] == IGNORE or min(grid.mass[a], grid.mass[b]) <= 0.0:
+        return 0.0
+    n = unit(vector(strides, rows.pair_normal, i))
+    state, work = touch_rows(grid, rows, laws, crack, a, b, n, strides, dt, stage)
+    rows.pair_touching[i] = state
+    return work
+
+
+@inlined_kernel
+def unit(v):
+    """Return a vector of length 1, or zero."""
+    size = np.sqrt(dot(v, v))
+    return times(v, 1.0 / size if size > 0.0 else 0.0)
 
 
 @kernel
 def touch_across(grid, rows, laws, strides, dt, stage, row, slot):
     """Contact of a row with the row on the other side of the crack in `slot`."""
     e = row - len(rows.first)
-    crack = rows.crack[e, slot]
-    kind = laws.kind[crack]
-    if kind == IGNORE:
+    crack = rows.owner[e, slot]
+    if laws.kind[crack] == IGNORE:
         return 0.0
     partner = row_across(rows, e, slot)
     if partner < 0 or grid.mass[row] <= 0.0 or grid.mass[partner] <= 0.0:
         return 0.0
     a, b = (row, partner) if rows.side[e, slot] > 0 else (partner, row)
     n = unit_normal(strides, rows.normal, e, slot)
+    state, work = touch_rows(grid, rows, laws, crack, a, b, n, strides, dt, stage)
+    rows.touching[e, slot] = state
+    return work
+
+
+@kernel
+def touch_rows(grid, rows, laws, crack, a, b, n, strides, dt, stage):
+    """Let rows a (above) and b (below) touch by the law of a crack; n: unit normal from a to b.
+
+    returns: what they do, and the work of friction (J)
+    """
     apart = plus(
         times(vector(strides, rows.displacement, b), 1.0 / grid.mass[b]),
         -1.0 / grid.mass[a],
@@ -216,15 +247,14 @@ def touch_across(grid, rows, laws, strides, dt, stage, row, slot):
         b,
         n,
         gap,
-        kind,
+        laws.kind[crack],
         laws.mu[crack],
         laws.mu_static[crack],
         strides,
         dt,
         stage,
     )
-    rows.touching[e, slot] = state
-    return friction if stage == UPDATE else 0.0
+    return state, friction if stage == UPDATE else 0.0
 
 
 @kernel
@@ -246,6 +276,11 @@ def touch_increment(increment, grid, rows, laws, strides):
                     for slot in range(crossings):
                         share_increment(increment, grid.mass, rows, strides, row, slot)
                 row = rows.next[e]
+    for i in range(rows.count[5]):
+        if rows.pair_touching[i] != OPEN:
+            a, b, n = rows.pair[i, 0], rows.pair[i, 1], unit(vector(strides, rows.pair_normal, i))
+            sliding = rows.pair_touching[i] == SLIDING
+            share_between(increment, a, b, grid.mass[a], grid.mass[b], n, sliding, strides)
 
 
 @kernel

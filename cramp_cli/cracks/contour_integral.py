@@ -26,12 +26,13 @@ class Contour(NamedTuple):
     trouble: str
 
 
-def integrate_contour(model, state, scratch, crack, tip, block, gravity) -> Contour:
+def integrate_contour(model, state, scratch, branch, tip, block, gravity) -> Contour:
     """Return J along x and y on a rectangle around the node nearest to `tip`.
 
     With one term it is the line integral alone, with two the area integral of the inertia as well.
 
-    tip: position (m); block: particles of the material at the tip; gravity: m/s^2
+    branch: that of the crack at the tip; tip: position (m); block: particles of the material there
+    gravity: m/s^2
     """
     lattice, cells, terms = model.lattice, model.fracture.cells, model.fracture.terms
     centre = [round((x - low) / lattice.width) for x, low in zip(tip, lattice.lower, strict=True)]
@@ -43,7 +44,7 @@ def integrate_contour(model, state, scratch, crack, tip, block, gravity) -> Cont
     sums = _fields(model, state, scratch, box)
     full = FULL * lattice.width**2 * model.geometry.thickness
     place = (lattice.lower, lattice.width, model.strides)
-    Jx, Jy, *met = line_integral(sums, box, scratch.rows, scratch.segments, crack, *place, full)
+    Jx, Jy, *met = line_integral(sums, box, scratch.rows, scratch.segments, branch, *place, full)
     lower = np.array(lattice.lower) + lattice.width * np.array([box.i, box.j])
     upper = lower + 2 * cells * lattice.width
     if _holds_others(model, state.particles, block.law, lower, upper):

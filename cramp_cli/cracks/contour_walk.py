@@ -9,7 +9,7 @@ from cramp_cli.numerics.vector import dot
 
 
 @kernel
-def line_integral(sums, box, rows, segments, crack, lower, width, strides, full):
+def line_integral(sums, box, rows, segments, branch, lower, width, strides, full):
     """Return the line integrals of q_x and q_y, counter-clockwise, and what the way meets.
 
     sums: as of `sum_fields`; full: volume that a node within the body sees at least (m^3)
@@ -27,16 +27,16 @@ def line_integral(sums, box, rows, segments, crack, lower, width, strides, full)
         a = means(sums, place_in(box, here[0], here[1], node, nodes))
         b = means(sums, place_in(box, there[0], there[1], next_node, nodes))
         normal = (there[1] - here[1], here[0] - there[0])
-        count, f, foreign = cross_edge(segments, crack, here, there, lower, width)
+        count, f, foreign = cross_edge(segments, branch, here, there, lower, width)
         others += foreign
         if count % 2 == 0:
             q = trapezoid(width, normal, a, b)
             Jx, Jy = Jx + q[0], Jy + q[1]
             continue
         own += 1
-        beyond = across(sums, box, rows, there, next_node, crack)
+        beyond = across(sums, box, rows, there, next_node, branch)
         first = trapezoid(f * width, normal, a, between(f, a, beyond))
-        beyond = across(sums, box, rows, here, node, crack)
+        beyond = across(sums, box, rows, here, node, branch)
         second = trapezoid((1 - f) * width, normal, between(f, beyond, b), b)
         Jx, Jy = Jx + first[0] + second[0], Jy + first[1] + second[1]
     return Jx, Jy, own, others, shared, empty
@@ -67,9 +67,9 @@ def means(sums, place):
 
 
 @kernel
-def across(sums, box, rows, at, node, crack):
+def across(sums, box, rows, at, node, branch):
     """Return the means on the other side of the crack at a node; zero where nobody is."""
-    row = crossed_row(rows, node, crack)
+    row = crossed_row(rows, node, branch)
     if row < 0:
         return (0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0), 0.0
     return means(sums, place_in(box, at[0], at[1], row, len(rows.first)))
@@ -113,7 +113,7 @@ def integrand(fields, normal):
 
 
 @kernel
-def cross_edge(segments, crack, here, there, lower, width):
+def cross_edge(segments, branch, here, there, lower, width):
     """Return how often a crack crosses an edge, how far along the first time, and others do."""
     px, py = lower[0] + width * here[0], lower[1] + width * here[1]
     nx, ny = lower[0] + width * there[0], lower[1] + width * there[1]
@@ -123,7 +123,7 @@ def cross_edge(segments, crack, here, there, lower, width):
             continue
         if crosses(segments.real, segments.down, s, px, py, nx, ny, ON_CRACK * width) == 0:
             continue
-        if segments.crack[s] != crack:
+        if segments.branch[s] != branch:
             others += 1
             continue
         share = share if count else share_along(segments.real, s, px, py, nx, ny)

@@ -9,6 +9,7 @@ twice do not cross it.
 
 import numpy as np
 
+from cramp_cli.cracks.branches import NEAR, add_crossing, reduce_crossed
 from cramp_cli.cracks.segments import HAIR, ON_CRACK
 from cramp_cli.numerics.kernel import inlined_kernel, kernel
 
@@ -165,41 +166,61 @@ def crossed_once(segments, k):
     """Return what `crossed_cracks` would for node `k`, which a single segment hides."""
     across = segments.across[k]
     s = max(across, ~across)
-    return segments.crack[s], 1 if across >= 0 else -1, s, -1, 0, -1, 0
+    return segments.branch[s], (1 if across >= 0 else -1) * segments.turn[s], s, -1, 0, -1, 0
 
 
 @inlined_kernel
 def crossed_cracks(segments, cell, px, py, nx, ny, tolerance):
-    """Return the first two cracks that the line p -> n crosses.
+    """Return the first two branches of cracks that the line p -> n crosses.
 
     returns: a, side_a, segment_a, b, side_b, segment_b, more
 
-    cell: lowest node of the cell of p; cracks are -1 where there is none; `more` counts further
-    cracks
+    cell: lowest node of the cell of p; branches are -1 where there is none; `more` counts further
+    branches
     """
-    ends, owner, item, following = segments.ends, segments.crack, segments.item, segments.next
+    found = segments.found
+    count = _find_crossed(segments, cell, px, py, nx, ny, tolerance)
+    if count > 1 and segments.used[3] > 0:
+        count = reduce_crossed(segments, count, nx, ny, NEAR / ON_CRACK * tolerance)
     a, side_a, seg_a = -1, 0, -1
     b, side_b, seg_b = -1, 0, -1
-    more = 0
+    if count > 0:
+        a, side_a, seg_a = found[0, 0], found[0, 1], found[0, 2]
+    if count > 1:
+        b, side_b, seg_b = found[1, 0], found[1, 1], found[1, 2]
+    return a, side_a, seg_a, b, side_b, seg_b, max(count - 2, 0)
+
+
+@kernel
+def _find_crossed(segments, cell, px, py, nx, ny, tolerance):
+    """Note which branches a line crosses in the end: branch, side of p, a segment; return how many.
+
+    Crossings of a branch alternate along the line: their sum is the side of p, or 0.
+    """
+    item, following, found = segments.item, segments.next, segments.found
     box = box_around(px, py, nx, ny, 4.0 * HAIR / ON_CRACK * tolerance)
-    entry = segments.head[cell]
+    entry, count = segments.head[cell], 0
     while entry >= 0:
-        crack = owner[item[entry]]
-        side, up, down = 0, -1, -1  # crossings alternate along the line: their sum is the side of p
-        while entry >= 0 and owner[item[entry]] == crack:
-            s, hit = item[entry], 0
-            if reaches(ends, s, box):  # most segments about a cell do not
-                hit = crosses(ends, segments.down, s, px, py, nx, ny, tolerance)
-            side += hit
-            up, down = s if hit > 0 else up, s if hit < 0 else down
-            entry = following[entry]
-        seg = up if side > 0 else down
-        if side % 2 != 0:
-            side = 1 if side > 0 else -1
-            if a < 0:
-                a, side_a, seg_a = crack, side, seg
-            elif b < 0:
-                b, side_b, seg_b = crack, side, seg
-            else:
-                more += 1
-    return a, side_a, seg_a, b, side_b, seg_b, more
+        s, hit = item[entry], 0
+        entry = following[entry]
+        if reaches(segments.ends, s, box):  # most segments about a cell do not
+            hit = crosses(segments.ends, segments.down, s, px, py, nx, ny, tolerance)
+        if hit == 0:
+            continue
+        hit *= segments.turn[s]
+        known = False
+        for i in range(count):
+            if found[i, 0] == segments.branch[s]:
+                known = True
+                found[i, 1] += hit
+                if hit * found[i, 1] > 0:
+                    found[i, 2] = s
+        if not known:
+            count = add_crossing(found, count, segments.branch[s], hit, s)
+    kept = 0
+    for i in range(count):
+        if found[i, 1] % 2 != 0:
+            found[kept, 0], found[kept, 2] = found[i, 0], found[i, 2]
+            found[kept, 1] = 1 if found[i, 1] > 0 else -1
+            kept += 1
+    return kept

@@ -10,7 +10,7 @@ from cramp_cli.state.paths import Paths
 
 FIELDS = (
     *("point", "origin", "above", "below", "above_velocity", "below_velocity"),
-    *("law", "damage", "spent"),
+    *("law", "damage", "spent", "joint"),
 )
 
 
@@ -29,6 +29,23 @@ def add_point(paths: Paths, crack: int, end: int) -> Paths:
         for name in FIELDS
     }
     return paths._replace(start=start, **longer)
+
+
+def insert_point(paths: Paths, crack: int, k: int, share: float) -> Paths:
+    """Return cracks with a new point of one of them, at a share of the way from point k to k + 1.
+
+    It has a traction law where the whole piece has.
+    """
+    start = paths.start.copy()
+    start[crack + 1 :] += 1
+    more = {}
+    for name in FIELDS:
+        old = getattr(paths, name)
+        between = (1.0 - share) * old[k] + share * old[k + 1]
+        if name == "law":
+            between = min(old[k], old[k + 1])
+        more[name] = np.insert(old, k + 1, -1 if name == "joint" else between, axis=0)
+    return paths._replace(start=start, **more)
 
 
 def move_end(paths: Paths, crack: int, end: int, before, now) -> None:

@@ -8,6 +8,7 @@ from cramp_cli.cracks.contact import GLUED, sum_displacement
 from cramp_cli.cracks.followers import follow, list_followers
 from cramp_cli.cracks.meetings import forget_groups, list_meeting_particles, mark_groups
 from cramp_cli.cracks.rows import clear_shared, forget_rows
+from cramp_cli.cracks.sectors import pair_sectors
 from cramp_cli.cracks.segments import list_segments, make_segments
 from cramp_cli.cracks.tip_nodes import EXTENSION, cut_along_cracks, mark_tip_nodes
 from cramp_cli.cracks.tip_shares import see_image, sum_sides
@@ -73,6 +74,7 @@ def _rows_fit(scratch, state, model) -> bool:
         scratch.grid, larger = make_grid(lattice.node_count, len(strides), 2 * int(rows.count[0]))
         scratch.rows = larger._replace(lowest=rows.lowest, highest=rows.highest)
         return False
+    pair_sectors(rows, segments, lattice.width, lattice.lower, strides)
     return True
 
 

@@ -77,10 +77,9 @@ def sides_beside_tip(rows, of_crack, node):
 
     of_crack: contact group of every crack
     """
-    crack = rows.tip[node] // 2
-    group = of_crack[crack]
+    group, across = of_crack[rows.tip[node] // 2], -rows.tip_side[node] * rows.tip_turn[node]
     own = find_row(rows, node, group, -1, 0, -1, 0)
-    across = find_row(rows, node, group, crack, -rows.tip_side[node], -1, 0)
+    across = find_row(rows, node, group, rows.tip_branch[node], across, -1, 0)
     return (own, across) if rows.tip_side[node] > 0 else (across, own)
 
 

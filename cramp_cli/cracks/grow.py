@@ -15,7 +15,7 @@ from cramp_cli.cracks.criteria.load import Load
 from cramp_cli.cracks.extend import add_point, cover_end, end_point, make_room, move_end
 from cramp_cli.cracks.intensity import open_and_slide, opening_near_tip
 from cramp_cli.cracks.interface import choose_course
-from cramp_cli.cracks.meeting import first_met, has_left_body, leave_body, stay_on_grid
+from cramp_cli.cracks.meeting import first_met, has_left_body, join_met, leave_body, stay_on_grid
 from cramp_cli.cracks.speed import Pull
 from cramp_cli.cracks.tip_load import LONG, line_of, load_on
 from cramp_cli.cracks.tips import USUAL, Tip, crack_length, tips_of
@@ -171,6 +171,8 @@ def _run(model, state, scratch, tip, found, load, criterion) -> list[dict]:
     if begins:
         rows.append(_row(model, state, tip, "growth"))
     if met:
+        state.paths = join_met(state.paths, tip, met)
+        scratch.segments = make_room(state.paths, scratch.segments, model.lattice.node_count)
         ended = [tip] if met.other is None else [tip, Tip(*met.other, tip.points)]
         return rows + [_end(model, state, one, PLAIN, "merge") for one in ended]
     stay_on_grid(model, state, tip)

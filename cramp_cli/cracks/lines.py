@@ -3,31 +3,34 @@
 Those of the particle's own body; and a tip that has been carried on counts at its own nodes only.
 """
 
+from cramp_cli.cracks.branches import off_joint
 from cramp_cli.cracks.crossing import crossed_cracks, crossed_once, crosses, off_crack
+from cramp_cli.cracks.segments import HAIR, ON_CRACK
 from cramp_cli.numerics.kernel import inlined_kernel
 
 NO_CRACK = (-1, 0, -1, -1, 0, -1, 0)  # what `crossed_cracks` says of a free line
 
 
 @inlined_kernel
-def cracks_between(segments, cell, hidden, unsure, k, place, n, tip, of_crack, group, tolerance):
+def cracks_between(segments, cell, hidden, unsure, k, place, n, beside, of_crack, group, tolerance):
     """Return the cracks, as `crossed_cracks` does, that tell the row of a particle at its node k.
 
     hidden, unsure: of `hidden_nodes`; place: that of the particle, off the cracks
-    n: place of the node (m); tip: that which the node is beside, or -1; group: of the particle
+    n: place of the node (m); beside: branch whose tip the node is beside, or -1
+    group: of the particle
     """
     (x, y), (nx, ny) = place, n
     crossed = NO_CRACK
     if unsure >> k & 1:
+        nx, ny = off_joint(segments, nx, ny, HAIR / ON_CRACK * tolerance)
         nx, ny = off_crack(segments, cell, nx, ny, tolerance)
         crossed = crossed_cracks(segments, cell, x, y, nx, ny, tolerance)
     elif hidden >> k & 1:
         crossed = crossed_once(segments, k)
     if crossed[0] < 0:
         return NO_CRACK
-    own = tip // 2 if tip >= 0 else -1
-    crossed = without_imagined(segments, crossed, own, x, y, nx, ny, tolerance)
-    return of_group(crossed, of_crack, group)
+    crossed = without_imagined(segments, crossed, beside, x, y, nx, ny, tolerance)
+    return of_group(segments, crossed, of_crack, group)
 
 
 @inlined_kernel
@@ -46,7 +49,7 @@ def without_imagined(segments, crossed, own, x, y, nx, ny, tolerance):
     A tip is carried on to tell the sides ahead of it at its own nodes; at the nodes of a tip that
     comes to meet it, this would cut what still holds the two together.
 
-    own: crack of the tip that is near the node, or -1
+    own: branch of the tip that is near the node, or -1
     """
     a, _, seg_a, b, _, seg_b, _ = crossed
     no_b = b >= 0 and b != own and is_imagined(segments, seg_b, x, y, nx, ny, tolerance)
@@ -67,7 +70,8 @@ def but_for(crossed, no_a, no_b):
 
 
 @inlined_kernel
-def of_group(crossed, of_crack, group):
+def of_group(segments, crossed, of_crack, group):
     """Return those of the cracks crossed that cut bodies of a group."""
-    a, b = crossed[0], crossed[3]
-    return but_for(crossed, a >= 0 and of_crack[a] != group, b >= 0 and of_crack[b] != group)
+    seg_a, seg_b, crack = crossed[2], crossed[5], segments.crack
+    no_a = seg_a >= 0 and of_crack[crack[seg_a]] != group
+    return but_for(crossed, no_a, seg_b >= 0 and of_crack[crack[seg_b]] != group)

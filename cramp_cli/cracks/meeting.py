@@ -4,9 +4,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from cramp_cli.cracks.extend import end_point, move_end
+from cramp_cli.cracks.extend import end_point, insert_point, move_end
 from cramp_cli.state.failure import NumericalFailure
-from cramp_cli.state.paths import TIP
+from cramp_cli.state.paths import TIP, Paths
 
 AHEAD = 0.25  # a crack this near ahead of a tip (cells) is met
 BESIDE = (
@@ -14,6 +14,7 @@ BESIDE = (
 )
 OUTSIDE = 1.05  # distance from the nearest particle, in half diagonals of it, beyond which is air
 BEYOND = 0.5  # the last piece of a crack that has left the body is at least this long (cells)
+SNAP = 0.04  # of BESIDE; a point of a crack nearer than this is met in the point itself
 RECENT = 3  # pieces behind a tip that it can not run into
 
 
@@ -62,6 +63,9 @@ class Met(NamedTuple):
     before: np.ndarray  # way to there in the undeformed body (m)
     now: np.ndarray  # the same now (m)
     other: tuple | None  # crack and end of the tip that is met, if it is one
+    crack: int  # the crack that is met
+    piece: int  # number of the point before the place on it
+    share: float  # of the way to the next point
 
 
 def first_met(model, state, tip, now, step) -> Met | None:
@@ -92,16 +96,45 @@ def first_met(model, state, tip, now, step) -> Met | None:
 
 
 def _met(paths, at, crack, piece, share, near) -> Met:
-    """Return how a crack is met in a piece of it, at a share of the piece's length."""
+    """Return how a crack is met in a piece of it, at a share of the piece's length.
+
+    A tip that is near is met at its end, if that lies ahead, and a junction in its point.
+    """
+    place = (1.0 - share) * paths.point[piece] + share * paths.point[piece + 1]
+    other = None
+    for end in (0, 1):
+        k = end_point(paths, crack, end)
+        if paths.ends[crack, end] == TIP and np.hypot(*(paths.point[k] - place)) < near:
+            other = (crack, end)
+            ahead = (paths.point[k] - paths.point[at]) @ (place - paths.point[at]) > 0.0
+            piece, share = (k - end, float(end)) if ahead else (piece, share)
+    for k in range(paths.start[crack], paths.start[crack + 1]):
+        away = np.hypot(*(paths.point[k] - place))
+        if other is None and away < (0.5 if paths.joint[k] >= 0 else SNAP) * near:
+            piece, share = (k - 1, 1.0) if k > paths.start[crack] else (k, 0.0)
     before, now = (
         (1.0 - share) * line[piece] + share * line[piece + 1] - line[at]
         for line in (paths.origin, paths.point)
     )
-    for end in (0, 1):
-        there = paths.point[end_point(paths, crack, end)] - paths.point[at] - now
-        if paths.ends[crack, end] == TIP and np.hypot(*there) < near:
-            return Met(before, now, (crack, end))
-    return Met(before, now, None)
+    return Met(before, now, other, crack, piece, share)
+
+
+def join_met(paths, tip, met) -> Paths:
+    """Return cracks with a junction where the end of a tip has come to lie on another crack.
+
+    Of a crack that meets itself nothing is made: the junction would have one branch twice.
+    """
+    if met.crack == tip.crack:
+        return paths
+    k = met.piece + round(met.share)
+    if 0.0 < met.share < 1.0:
+        paths, k = insert_point(paths, met.crack, met.piece, met.share), met.piece + 1
+    at = end_point(paths, tip.crack, tip.end)
+    if paths.joint[k] < 0:
+        paths.joint[k] = 1 + np.max(paths.joint)
+    paths.joint[at] = paths.joint[k]
+    paths.point[at] = paths.point[k]
+    return paths
 
 
 def _ahead(ends, way) -> tuple[float, int, float]:

@@ -24,8 +24,9 @@ def find_room(model, paths, tip, here, bend=BEND) -> tuple[float, str]:
     here: the tip in the undeformed body (m); bend: turn (rad) of the crack itself that does
     """
     here = np.array(here)
-    found = [(np.inf, ""), *_other_cracks(model, paths, tip, here), *_other_tip(paths, tip, here)]
-    found += _own_bends(paths, tip, here, bend)
+    points, own = through_joints(paths, tip)
+    found = [(np.inf, ""), *_other_cracks(model, paths, own, here)]
+    found += [*_other_tip(paths, points, own[-1], here), *_own_bends(paths, points, here, bend)]
     for places, what, crack in model.fracture.obstacles:
         if len(places) and crack != tip.crack:
             found.append((float(np.sqrt(np.min(np.sum((places - here) ** 2, axis=1)))), what))
@@ -47,15 +48,33 @@ def nearest_body(model, state, tip) -> tuple[float, str]:
     return float(np.sqrt(away.min(initial=np.inf))), "another body"
 
 
-def _other_cracks(model, paths, tip, here):
+def through_joints(paths, tip) -> tuple[np.ndarray, list[int]]:
+    """Return the points of a crack from a tip on, through all cracks that meet end to end.
+
+    returns: numbers of points, and the cracks in this order
+    """
+    points, cracks = tip.points, [tip.crack]
+    while paths.joint[points[-1]] >= 0:
+        arms = np.flatnonzero(paths.joint == paths.joint[points[-1]])
+        following = int(arms.sum() - points[-1])
+        c = int(np.searchsorted(paths.start, following, side="right")) - 1
+        more = np.arange(paths.start[c], paths.start[c + 1])
+        if len(arms) != 2 or c in cracks or following not in (more[0], more[-1]):
+            break
+        more = more if following == more[0] else more[::-1]
+        points, cracks = np.concatenate([points, more[1:]]), [*cracks, c]
+    return points, cracks
+
+
+def _other_cracks(model, paths, own, here):
     for c in range(paths.crack_count):
-        if c != tip.crack:
+        if c not in own:
             yield _distance(here, paths.origin[paths.crack(c)]), f"crack {model.crack_names[c]}"
 
 
-def _own_bends(paths, tip, here, bend):
+def _own_bends(paths, points, here, bend):
     """Yield the nearest bend."""
-    own = paths.origin[tip.points]
+    own = paths.origin[points]
     step = np.diff(own, axis=0)
     turned = np.arctan2(step[:, 1], step[:, 0]) - np.arctan2(step[0, 1], step[0, 0])
     bent = np.flatnonzero(np.abs(np.angle(np.exp(1j * turned))) > bend)
@@ -63,10 +82,11 @@ def _own_bends(paths, tip, here, bend):
         yield float(np.hypot(*(own[bent[0]] - here))), "a bend of the crack"
 
 
-def _other_tip(paths, tip, here):
-    """Yield the tip at the other end."""
-    if paths.ends[tip.crack, 1 - tip.end] == TIP:
-        yield float(np.hypot(*(paths.origin[tip.points[-1]] - here))), "the other tip"
+def _other_tip(paths, points, last, here):
+    """Yield the tip at the other end; last: the crack that ends there."""
+    end = int(points[-1] == paths.start[last + 1] - 1)
+    if paths.ends[last, end] == TIP:
+        yield float(np.hypot(*(paths.origin[points[-1]] - here))), "the other tip"
 
 
 def _distance(here, line) -> float:

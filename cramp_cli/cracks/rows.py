@@ -14,7 +14,7 @@ def forget_rows(rows):
     """Remove all extra rows."""
     for i in range(rows.count[1]):
         rows.first[rows.shared[i]] = -1
-    rows.count[:4] = 0
+    rows.count[:4] = rows.count[5] = 0
 
 
 @inlined_kernel
@@ -94,6 +94,7 @@ def add_row(rows, node, group, a, side_a, b, side_b):
     rows.side[e, 0], rows.side[e, 1] = side_a, side_b
     rows.normal[e, :, :] = 0.0
     rows.touching[e, :] = 0
+    rows.owner[e, :] = -1
     before, after = -1, rows.first[node]
     while after >= 0 and _comes_first(rows, after - nodes, group, a, side_a, b, side_b):
         before, after = after, rows.next[after - nodes]
@@ -153,13 +154,17 @@ def _is_wrong(rows, node, crack, side):
 
 
 @inlined_kernel
-def add_normal(rows, row, crack, ends, s):
-    """Add segment `s` of a crack, turned from above to below, to the normals of a row."""
-    e = row - len(rows.first)
+def add_normal(rows, row, crack, segments, s):
+    """Add segment `s` of a branch, turned from above to below, to the normals of a row.
+
+    Where a branch is made of several cracks the law of the last one holds.
+    """
+    e, ends = row - len(rows.first), segments.ends
     for slot in range(2):
         if e >= 0 and s >= 0 and rows.crack[e, slot] == crack:
-            rows.normal[e, slot, 0] += ends[s, 3] - ends[s, 1]
-            rows.normal[e, slot, 1] += ends[s, 0] - ends[s, 2]
+            rows.normal[e, slot, 0] += segments.turn[s] * (ends[s, 3] - ends[s, 1])
+            rows.normal[e, slot, 1] += segments.turn[s] * (ends[s, 0] - ends[s, 2])
+            rows.owner[e, slot] = max(rows.owner[e, slot], segments.crack[s])
 
 
 @kernel

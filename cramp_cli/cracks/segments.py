@@ -4,12 +4,14 @@ from typing import NamedTuple
 
 import numpy as np
 
+from cramp_cli.cracks.branches import number_branches
 from cramp_cli.numerics.kernel import kernel
 from cramp_cli.state.paths import EDGE, TIP
 
 ON_CRACK = 1e-9  # a point closer to a crack than this (cells) lies on it
 HAIR = 1e-6  # a point on a vertex is taken to lie this far below it (cells)
 MOST_NODES = 64  # that a particle may see in the plane
+MOST_CROSSED = 16  # branches that a line from a particle to a node is known to cross
 EXTENSION = 4.0  # an edge end is carried on by this many segment lengths
 
 
@@ -20,12 +22,19 @@ class Segments(NamedTuple):
     real: np.ndarray  # (segments, 4) the same with tips where they are
     down: np.ndarray  # (segments, 4) a hair below both ends, the same for neighbours (m)
     crack: np.ndarray  # (segments,) crack of each segment, ascending
+    branch: np.ndarray  # (segments,) branch of each segment: branches.py
+    turn: np.ndarray  # (segments,) -1 where the branch runs against the crack, else 1
+    joint: np.ndarray  # (segments, 2) junction at both ends, -1 for none
+    arms: np.ndarray  # (2 * segments,) 2 * segment + end of the arms of all junctions, by junction
+    first_arm: np.ndarray  # (2 * segments + 1,) the first of each junction
+    of_end: np.ndarray  # (2 * segments,) branch at the ends of all cracks: 2 * crack + end
     head: np.ndarray  # (nodes,) first entry of the list of a cell (by its lowest node), or -1
     item: np.ndarray  # (entries,) segment of an entry
     next: np.ndarray  # (entries,) next entry of the same cell, or -1; segments ascend
     zone: np.ndarray  # (nodes,) 1 for cells whose particles may see a node with several rows
-    used: np.ndarray  # (3,) segments, entries in use, entries wanted
+    used: np.ndarray  # (4,) segments, entries in use, entries wanted, junctions
     across: np.ndarray  # (64,) room for what hides the nodes of a particle: crossing.py
+    found: np.ndarray  # (16, 3) room for the branches that a line crosses: crossing.py
 
 
 def make_segments(node_count: int, segment_count: int, entries: int) -> Segments:
@@ -35,12 +44,19 @@ def make_segments(node_count: int, segment_count: int, entries: int) -> Segments
         real=np.zeros((segment_count, 4)),
         down=np.zeros((segment_count, 4)),
         crack=np.zeros(segment_count, dtype=np.int64),
+        branch=np.zeros(segment_count, dtype=np.int64),
+        turn=np.ones(segment_count, dtype=np.int64),
+        joint=np.full((segment_count, 2), -1, dtype=np.int64),
+        arms=np.zeros(2 * segment_count, dtype=np.int64),
+        first_arm=np.zeros(2 * segment_count + 1, dtype=np.int64),
+        of_end=np.zeros(2 * segment_count, dtype=np.int64),
         head=np.full(node_count, -1, dtype=np.int64),
         item=np.zeros(entries, dtype=np.int64),
         next=np.zeros(entries, dtype=np.int64),
         zone=np.zeros(node_count, dtype=np.uint8),
-        used=np.zeros(3, dtype=np.int64),
+        used=np.zeros(4, dtype=np.int64),
         across=np.zeros(MOST_NODES, dtype=np.int64),
+        found=np.zeros((MOST_CROSSED, 3), dtype=np.int64),
     )
 
 
@@ -83,7 +99,7 @@ def lay_out_segments(segments, paths, beyond_tip, hair):
                 on_tip = on
                 if outermost and kinds[c, end] == TIP:
                     on_tip = beyond_tip[c] / size
-                elif outermost and not edge:
+                elif outermost and not edge and paths.joint[at] < 0:
                     on_tip = 4.0 * hair / size  # ends of cracks that meet in a point must meet
                 sign = 2 * end - 1
                 segments.real[n, 2 * end] = point[at, 0] + sign * on * dx
@@ -118,6 +134,7 @@ def list_segments(segments, paths, cells, width, lower, strides, growth, zone_gr
     head[:] = -1
     zone[:] = 0
     count = lay_out_segments(segments, paths, beyond_tip, HAIR * width)
+    number_branches(segments, paths, count, HAIR * width)
     line = segments.ends
     entries = 0
     for s in range(count - 1, -1, -1):  # pushed to the front, so that lists ascend

@@ -181,6 +181,7 @@ def _mark(rows, segments, node, tip, segment, x, y, width):
     limit = ON_CRACK * width * (abs(bx - ax) + abs(by - ay))
     above = double_area(ax, ay, bx, by, x, y) > limit
     rows.tip[node], rows.tip_segment[node] = tip, segment
+    rows.tip_branch[node], rows.tip_turn[node] = segments.branch[segment], segments.turn[segment]
     rows.tip_seen[node, :] = rows.tip_cut[node, :] = 0.0
     rows.tip_split[node] = False
     rows.tip_side[node] = 1 if above else -1

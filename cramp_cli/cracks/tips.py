@@ -210,7 +210,8 @@ def _measure_contour(model, state, scratch, tip, site, normal, slide):
     if model.cohesion is not None and np.any(state.paths.law[tip.points] >= 0):
         return {}, "contour invalid: stresses act on the faces"
     place = state.paths.point[tip.points[0]]
-    contour = integrate_contour(model, state, scratch, tip.crack, place, site.block, site.gravity)
+    branch = int(scratch.segments.of_end[2 * tip.crack + tip.end])
+    contour = integrate_contour(model, state, scratch, branch, place, site.block, site.gravity)
     if contour.trouble:
         return {}, f"contour invalid: {contour.trouble}"
     J, _ = along(tip.direction(state.paths.point), contour)
@@ -321,7 +322,7 @@ def is_closed(model, scratch, crack, place, radius, K_I) -> bool:
         lattice.lower
     )
     near = np.sum((at - place) ** 2, axis=1) < radius**2
-    mine = (rows.crack[:n, 0] == crack) & near
+    mine = (rows.owner[:n, 0] == crack) & near
     if not mine.any():
         return False
     return bool(np.mean(rows.touching[:n, 0][mine] != OPEN) > 0.5)

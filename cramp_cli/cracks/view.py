@@ -9,13 +9,15 @@ from typing import NamedTuple
 
 import numpy as np
 
+from cramp_cli.cracks.branches import off_joint
 from cramp_cli.cracks.crossing import crossed_cracks
 from cramp_cli.cracks.lines import NO_CRACK, of_group
 from cramp_cli.cracks.rows import find_row, row_on_side, row_told
-from cramp_cli.cracks.segments import ON_CRACK
+from cramp_cli.cracks.segments import HAIR, ON_CRACK
 from cramp_cli.numerics.kernel import inlined_kernel, kernel
 from cramp_cli.numerics.vector import dot
 
+ALONG = 1e-2  # at a junction it looks from this far along its crack (cells)
 OFF_PLANE = 1e-4  # a surface looks at the nodes from this distance off the plane (cells)
 LIGHT = 0.1  # rows of less than this share of the heaviest one around count less in even weights
 
@@ -56,20 +58,25 @@ def look_from(seen, even, paths, k, crack, side, normal, cut, mass, solid, place
     rows, segments, of_crack = solid
     cells, width, lower, strides = place
     surface = paths.above if side > 0 else paths.below
-    off = side * OFF_PLANE * width
-    qx, qy = paths.point[k, 0] + off * normal[0], paths.point[k, 1] + off * normal[1]
+    qx, qy = place_of_surface(paths, k, crack, side, normal, width)
+    s = min(k, paths.start[crack + 1] - 2) - crack
+    branch, upper = segments.branch[s], side * segments.turn[s]
     cell = dot(cell_of(qx, qy, place), strides)
     i0, j0 = cell_of(surface[k, 0], surface[k, 1], place)
     rx, ry = (surface[k, 0] - lower[0]) / width, (surface[k, 1] - lower[1]) / width
-    alone = is_one_crack(segments, cell)
+    alone = is_one_branch(segments, cell)
     count, heaviest = 0, 0.0
     for j in range(j0, j0 + 2):
         for i in range(i0, i0 + 2):
             node, n = dot((i, j), strides), (lower[0] + width * i, lower[1] + width * j)
             crossed = NO_CRACK
-            if not alone or not is_told_by(rows, node, crack):  # else it is this crack or none
+            if not alone or not is_told_by(rows, node, branch):  # else it is this branch or none
+                n = off_joint(segments, n[0], n[1], HAIR * width)
                 crossed = crossed_cracks(segments, cell, qx, qy, n[0], n[1], ON_CRACK * width)
-            mine, facing = rows_of_surface(rows, crossed, of_crack, crack, side, node)
+                crossed = of_group(segments, crossed, of_crack, of_crack[crack])
+            beside = rows.tip[node] // 2 == crack
+            group = of_crack[crack]
+            mine, facing = rows_of_surface(rows, crossed, group, branch, upper, node, beside)
             S = max(0.0, 1.0 - abs(rx - i)) * max(0.0, 1.0 - abs(ry - j))
             near = mass[mine] if mine >= 0 else 0.0
             far = mass[facing] if facing >= 0 else 0.0
@@ -88,12 +95,28 @@ def look_from(seen, even, paths, k, crack, side, normal, cut, mass, solid, place
 
 
 @inlined_kernel
-def is_one_crack(segments, cell):
-    """Return whether all segments about a cell are of one crack."""
+def place_of_surface(paths, k, crack, side, normal, width):
+    """Return a place (m) just off point k of a crack, above (+1) or below (-1) it.
+
+    At a junction a little along the crack: beside its end may be another arm, or what lies behind.
+    """
+    point, off = paths.point, side * OFF_PLANE * width
+    x, y = point[k, 0] + off * normal[0], point[k, 1] + off * normal[1]
+    if paths.joint[k] < 0:
+        return x, y
+    other = k + 1 if k < paths.start[crack + 1] - 1 else k - 1
+    dx, dy = point[other, 0] - point[k, 0], point[other, 1] - point[k, 1]
+    size = np.sqrt(dx * dx + dy * dy)
+    return x + ALONG * width * dx / size, y + ALONG * width * dy / size
+
+
+@inlined_kernel
+def is_one_branch(segments, cell):
+    """Return whether all segments about a cell are of one branch of a crack."""
     first = segments.head[cell]
     entry = first
     while entry >= 0:
-        if segments.crack[segments.item[entry]] != segments.crack[segments.item[first]]:
+        if segments.branch[segments.item[entry]] != segments.branch[segments.item[first]]:
             return False
         entry = segments.next[entry]
     return True
@@ -108,34 +131,33 @@ def cell_of(x, y, place):
 
 
 @inlined_kernel
-def rows_of_surface(rows, crossed, of_crack, crack, side, node):
-    """Return the rows of a node for one side of a crack and for the other, or -1.
+def rows_of_surface(rows, crossed, group, branch, side, node, beside_tip):
+    """Return the rows of a node for one side of a branch and for the other, or -1.
 
-    Where rows of the node are told by this crack they decide: the row of the side, else the one
-    without the crack. Without such rows the cracks do that the line to the node has crossed. Beside
-    a tip the side of the node is known, and a side that it does not see has no row; there only the
-    other side counts as well.
+    Where rows of the node are told by this branch they decide: the row of the side, else the one
+    without the branch. Without such rows the cracks do that the line to the node has crossed.
+    Beside a tip the side of the node is known, and a side that it does not see has no row; there
+    only the other side counts as well.
     """
-    group = of_crack[crack]
-    a, side_a, _, b, side_b, _, _ = of_group(crossed, of_crack, group)
-    beside_tip = rows.tip[node] // 2 == crack
-    if not beside_tip and not is_told_by(rows, node, crack):
+    a, side_a, _, b, side_b, _, _ = crossed
+    if not beside_tip and not is_told_by(rows, node, branch):
         return find_row(rows, node, group, a, side_a, b, side_b), -1
-    other, other_side = (b, side_b) if a == crack else (a, side_a)
+    other, other_side = (b, side_b) if a == branch else (a, side_a)
     if not beside_tip:
-        return row_on_side(rows, node, group, crack, side, other, other_side), -1
+        return row_on_side(rows, node, group, branch, side, other, other_side), -1
+    node_side = rows.tip_side[node] * rows.tip_turn[node]
     own = find_row(rows, node, group, other, other_side, -1, 0)
-    across = row_told(rows, node, group, crack, -rows.tip_side[node], other, other_side)
-    return (own, across) if side == rows.tip_side[node] else (across, own)
+    across = row_told(rows, node, group, branch, -node_side, other, other_side)
+    return (own, across) if side == node_side else (across, own)
 
 
 @inlined_kernel
-def is_told_by(rows, node, crack):
-    """Return whether a crack tells rows of a node."""
+def is_told_by(rows, node, branch):
+    """Return whether a branch tells rows of a node."""
     nodes = len(rows.first)
     row = rows.first[node]
     while row >= 0:
-        if rows.crack[row - nodes, 0] == crack or rows.crack[row - nodes, 1] == crack:
+        if rows.crack[row - nodes, 0] == branch or rows.crack[row - nodes, 1] == branch:
             return True
         row = rows.next[row - nodes]
     return False

@@ -95,9 +95,7 @@ def crack_warnings(parts: Parts) -> Iterator[Wrong]:
         for key, point, before in (("start", *crack.corners[:2]), ("end", *crack.corners[:-3:-1])):
             if getattr(crack, key) != "tip":
                 continue
-            if _is_outside(point, regions):
-                yield (*path, key), "is a tip outside every body; 'edge' may be meant"
-            elif _is_outside(_ahead(point, before, cell), regions):
+            if _is_outside(_ahead(point, before, cell), regions):
                 yield (*path, key), "is a tip within a cell of free space; 'edge' may be meant"
         yield from _coarse_bodies(parts, crack)
 

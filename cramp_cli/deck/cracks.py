@@ -14,7 +14,8 @@ from cramp_cli.deck.points import UNIT, read_into, unit_without_file
 from cramp_cli.schema.section import Name, Section, Wrong, only_one
 from cramp_cli.schema.units import Angle, Length, Point, pair
 
-End = Literal["tip", "edge", "plain"]
+End = Literal["auto", "tip", "edge", "junction", "plain"]
+WHAT = "auto: by where it lies; tip, edge of the body, junction with a crack, or plain end inside"
 FINE = 512  # pieces of an arc when its length is measured and its outline is drawn
 
 
@@ -56,8 +57,8 @@ class CrackSection(Section):
     arc: Arc | None = Field(None, description="an arc instead of points")
     file: str | None = Field(None, description="csv file with one `x,y` row for each point")
     unit: Length | None = Field(None, gt=0, description=UNIT)
-    start: End = Field("tip", description="what its start is: tip, at an edge, or plain end")
-    end: End = Field("tip", description="what its end is: tip, at an edge, or plain end")
+    start: End = Field("auto", description=f"what its start is; {WHAT}")
+    end: End = Field("auto", description=f"what its end is; {WHAT}")
     segment: Length | None = Field(
         None, gt=0, description="longest piece of the line; half a cell if not given"
     )

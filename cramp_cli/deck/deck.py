@@ -14,6 +14,7 @@ from cramp_cli.deck.contact_groups import contact_mistakes
 from cramp_cli.deck.crack_checks import crack_warnings
 from cramp_cli.deck.cracks import CrackSection
 from cramp_cli.deck.each import as_written, each_apart, each_mistakes
+from cramp_cli.deck.ends import choose_ends, end_mistakes
 from cramp_cli.deck.events import event_mistakes
 from cramp_cli.deck.files import digests
 from cramp_cli.deck.growth_checks import growth_mistakes
@@ -152,8 +153,10 @@ def check_deck(source: Source, folder: Path) -> Deck:
     if deck is not None:
         wrong += each_mistakes(deck)
         deck, numbers = each_apart(deck)
+        between = list(end_mistakes(deck))
+        deck = choose_ends(deck)
         rules = (growth_mistakes, contact_mistakes, ring_mistakes, event_mistakes)
-        between = [one for rule in rules for one in rule(deck)]
+        between += [one for rule in rules for one in rule(deck)]
         wrong += [as_written(one, numbers) for one in between]
     found += [source.mistake(*one) for one in wrong]
     if found or deck is None:

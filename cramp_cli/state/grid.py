@@ -30,7 +30,7 @@ class Rows(NamedTuple):
     of the groups that see the node. Arrays over extra rows start at row number `nodes`.
     """
 
-    count: np.ndarray  # (5,) extra rows, nodes that have them, wrong sides, third cracks, tipped
+    count: np.ndarray  # (6,) extra rows, nodes with them, wrong sides, third cracks, tipped, pairs
     first: np.ndarray  # (nodes,) first extra row of a node, or -1
     next: np.ndarray  # (extra,) next extra row of the same node, or -1; ascending by their labels
     node: np.ndarray  # (extra,) node of an extra row
@@ -38,12 +38,19 @@ class Rows(NamedTuple):
     lowest: np.ndarray  # (nodes,) the lowest of the contact groups that see a node
     highest: np.ndarray  # (nodes,) the highest of them
     group: np.ndarray  # (extra,) contact group of the particles of a row
-    crack: np.ndarray  # (extra, 2) cracks crossed, ascending, -1 for none
-    side: np.ndarray  # (extra, 2) side of the row's particles: +1 above, -1 below the crack
+    crack: np.ndarray  # (extra, 2) branches of cracks crossed, ascending, -1 for none
+    side: np.ndarray  # (extra, 2) side of the row's particles: +1 above, -1 below the branch
+    owner: np.ndarray  # (extra, 2) crack whose contact law holds across the branch, or -1
     normal: np.ndarray  # (extra, 2, dim) sum of crossed segments turned from above to below, m
     touching: np.ndarray  # (extra, 2) open, sliding or stuck to the row across each crack
+    pair: np.ndarray  # (pairs, 2) rows above and below an arm of a junction: sectors.py
+    pair_crack: np.ndarray  # (pairs,) crack of that arm
+    pair_normal: np.ndarray  # (pairs, dim) first segment of the arm turned from above to below, m
+    pair_touching: np.ndarray  # (pairs,) open, sliding or stuck
     tip: np.ndarray  # (nodes,) tip (2 * crack + end) that is near a node, or -1
     tip_side: np.ndarray  # (nodes,) side of that crack on which the node lies
+    tip_branch: np.ndarray  # (nodes,) branch of that crack to which the node is nearest
+    tip_turn: np.ndarray  # (nodes,) -1 where the branch runs against the crack, else 1
     tip_segment: np.ndarray  # (nodes,) segment of the crack nearest to the node
     tip_seen: np.ndarray  # (nodes, 2) mass it sees on its own side of that crack, across it; kg
     tip_cut: np.ndarray  # (nodes, 2) the same times the square of the cut share; kg
@@ -62,7 +69,7 @@ def make_grid(node_count: int, dim: int, extra: int) -> tuple[Grid, Rows]:
 
     grid = Grid(np.zeros(rows), vectors(), vectors(), vectors(), vectors(), vectors())
     fields = Rows(
-        count=np.zeros(5, dtype=np.int64),
+        count=np.zeros(6, dtype=np.int64),
         first=np.full(node_count, -1, dtype=np.int64),
         next=np.full(extra, -1, dtype=np.int64),
         node=np.zeros(extra, dtype=np.int64),
@@ -72,10 +79,17 @@ def make_grid(node_count: int, dim: int, extra: int) -> tuple[Grid, Rows]:
         group=np.zeros(extra, dtype=np.int64),
         crack=np.full((extra, 2), -1, dtype=np.int64),
         side=np.zeros((extra, 2), dtype=np.int64),
+        owner=np.full((extra, 2), -1, dtype=np.int64),
         normal=np.zeros((extra, 2, dim)),
         touching=np.zeros((extra, 2), dtype=np.int64),
+        pair=np.zeros((extra, 2), dtype=np.int64),
+        pair_crack=np.zeros(extra, dtype=np.int64),
+        pair_normal=np.zeros((extra, dim)),
+        pair_touching=np.zeros(extra, dtype=np.int64),
         tip=np.full(node_count, -1, dtype=np.int64),
         tip_side=np.zeros(node_count, dtype=np.int64),
+        tip_branch=np.zeros(node_count, dtype=np.int64),
+        tip_turn=np.ones(node_count, dtype=np.int64),
         tip_segment=np.zeros(node_count, dtype=np.int64),
         tip_seen=np.zeros((node_count, 2)),
         tip_cut=np.zeros((node_count, 2)),

@@ -22,6 +22,7 @@ class Paths(NamedTuple):
     law: np.ndarray  # (points,) number of the traction law of the faces here, -1 for none
     damage: np.ndarray  # (points,) what the faces have lost of it: 0 whole, 1 parted
     spent: np.ndarray  # (points, 2) energy dissipated in opening and in sliding, J/m^2
+    joint: np.ndarray  # (points,) number of the junction at a point, -1 for none
     start: np.ndarray  # (cracks + 1,) first point of each crack
     ends: np.ndarray  # (cracks, 2) PLAIN, EDGE or TIP at first and last point
     fixed: np.ndarray  # (cracks,) 1 where the crack does not move
@@ -37,8 +38,11 @@ class Paths(NamedTuple):
         return slice(int(self.start[c]), int(self.start[c + 1]))
 
 
-def make_paths(lines, ends, fixed, mirror, dim: int) -> Paths:
-    """Return closed cracks along `lines`, a list of (points, dim) arrays in metres."""
+def make_paths(lines, ends, fixed, mirror, dim: int, joint=None) -> Paths:
+    """Return closed cracks along `lines`, a list of (points, dim) arrays in metres.
+
+    joint: (points,) of Paths; no junctions if not given
+    """
     points = np.concatenate(
         [np.asarray(line, dtype=float) for line in lines] or [np.zeros((0, dim))]
     )
@@ -52,6 +56,7 @@ def make_paths(lines, ends, fixed, mirror, dim: int) -> Paths:
         law=np.full(len(points), -1, dtype=np.int64),
         damage=np.zeros(len(points)),
         spent=np.zeros((len(points), 2)),
+        joint=np.array([-1] * len(points) if joint is None else joint, dtype=np.int64),
         start=np.cumsum([0, *(len(line) for line in lines)]),
         ends=np.array(ends, dtype=np.int64).reshape(len(lines), 2),
         fixed=np.array(fixed, dtype=np.int64),

@@ -166,6 +166,10 @@ class Sketch:
         if kind == "tip":
             self.axes.plot(x, y, "o", ms=4.5, mfc=RED, mec="white", mew=0.6, zorder=8, label="tip")
             self._domains(place)
+        elif kind == "junction":
+            self.axes.plot(x, y, "D", ms=3.5, color=BLACK, zorder=8, label="junction")
+        elif kind == "edge":
+            self.axes.plot(x, y, "|", ms=6, color=BLACK, zorder=8, label="edge")
         elif kind == "plain":
             self.axes.plot(x, y, "s", ms=3.5, color=BLACK, zorder=8, label="plain end")
 

@@ -222,15 +222,15 @@ def test_writing_quotes_what_yaml_1_2_would_misread(write):
 
 def test_overrides_by_name_by_index_and_into_new_sections(write):
     settings = [
-        "cracks.bow.end=edge",
-        "cracks[0].start=plain",
+        "cracks.bow.end=plain",
+        "cracks[0].end=plain",
         "solver.damping.grid=25 1/s",
         "output.fields=[stress]",
         "title=a=b",
     ]
     deck = read_deck(write(CRACKED), settings)
-    assert deck.cracks[1].end == "edge"
-    assert deck.cracks[0].start == "plain"
+    assert deck.cracks[1].end == "plain"
+    assert deck.cracks[0].end == "plain"
     assert deck.solver.damping.grid == 25.0
     assert deck.output.fields == ("stress",)
     assert deck.title == "a=b"
@@ -261,7 +261,7 @@ def test_doubts_are_warnings(write):
         "bodies.0.particles_per_cell=1",
         "cracks.straight.segment=5 mm",
         "cracks.straight.start=tip",
-        "cracks.straight.points=[[-0.003, 0.02], [0.03, 0.02]]",
+        "cracks.straight.points=[[0.0005, 0.02], [0.03, 0.02]]",
         "materials.glass.nu=0.48",
         "materials.spare={law: elastic, density: 1, E: 1, nu: 0}",
     ]
@@ -269,7 +269,7 @@ def test_doubts_are_warnings(write):
     assert all(isinstance(one, Mistake) for one in found)
     assert [f"{one.shown_path}: {one.message}" for one in found] == [
         "cracks.straight.segment: is 5 cells; usual are 0.1 to 2",
-        "cracks.straight.start: is a tip outside every body; 'edge' may be meant",
+        "cracks.straight.start: is a tip within a cell of free space; 'edge' may be meant",
         "bodies.plate.particles_per_cell: fewer than 2 along each side of a cell, "
         "but crack straight runs here",
         "bodies.plate.particles_per_cell: fewer than 2 along each side of a cell, "

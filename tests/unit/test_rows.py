@@ -279,7 +279,7 @@ def test_room_for_rows_grows_with_the_cracks():
 @pytest.mark.parametrize("height", [4.0, 3.75, 3.6])
 def test_part_cut_particles_give_their_whole_weight(tip, height, shape):
     """cracks/tip_nodes.py: shares of a pair add up to 1; rows of a side hold that side."""
-    crack = straight((-1, height), (tip, height), ends="tip")
+    crack = straight((-1, height), (tip, height)) | {"end": "tip"}
     model, state, scratch = sorted_out([crack], shape, tips="smooth")
     stencil, rows = scratch.stencil, scratch.rows
     shares = [s for n, s in zip(stencil.entries, stencil.share, strict=True) for s in s[:n]]

@@ -85,6 +85,7 @@ def test_the_legend_tells_every_part_once(deck):
         "press: 2 MPa",
         "load 2: gravity 9.81 m/s²",
         "slot (contact: frictional)",
+        "edge",
         "tip",
         "J domain, if there is room",
         "J contour",

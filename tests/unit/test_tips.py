@@ -151,9 +151,14 @@ def test_radii_to_compare_keep_away_from_obstacles():
     assert np.isnan(row["J_spread"])
 
 
-def test_a_tip_on_another_crack_has_no_room():
-    rows = sampled(inner((0, 10), (15, 10), start="edge"), inner((15, 5), (15, 15)))
+def test_a_tip_near_another_crack_has_no_room():
+    rows = sampled(inner((0, 10), (14.8, 10), start="edge"), inner((15, 5), (15, 15)))
     assert rows["c0", "end"]["status"].startswith("invalid: crack c1 is nearer than 5 cells")
+
+
+def test_an_end_on_another_crack_is_no_tip():
+    rows = sampled(inner((0, 10), (15, 10), start="edge"), inner((15, 5), (15, 15)))
+    assert set(rows) == {("c1", "start"), ("c1", "end")}
 
 
 LAYERED = inner((0, 10), (12, 10), start="edge")  # its tip is 3 cells before the second half

@@ -85,6 +85,10 @@ def test_a_crack_ends_on_another():
     assert events[-1]["kind"] == "merge"
     assert (events[-1]["x"], events[-1]["y"]) == pytest.approx((12.3, 5.2), abs=1e-9)
     assert state.paths.ends[0].tolist() == [EDGE, PLAIN]
+    at = state.paths.point[state.paths.joint == 0]
+    assert len(at) == 2  # the end of one, a new point of the other
+    assert (at == at[0]).all()
+    assert state.paths.start[-1] - state.paths.start[1] == 14
 
 
 def test_a_crack_goes_past_one_that_is_not_in_its_way():
@@ -103,7 +107,8 @@ def test_two_tips_that_come_to_meet_each_other_become_one_crack(offset):
     assert [row["kind"] for row in events[-2:]] == ["merge", "merge"]
     assert state.paths.ends.tolist() == [[EDGE, PLAIN], [EDGE, PLAIN]]
     ends = state.paths.point[[state.paths.start[1] - 1, state.paths.start[2] - 1]]
-    assert np.hypot(*(ends[0] - ends[1])) < 0.5
+    assert (ends[0] == ends[1]).all()
+    assert (state.paths.joint == 0).sum() == 2
     assert 9.0 < ends[0, 0] < 11.0
 
 
