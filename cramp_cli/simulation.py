@@ -16,6 +16,7 @@ from cramp_cli.energy_balance import Balance
 from cramp_cli.numerics.call import records_of_one_run
 from cramp_cli.output.summary import Summary
 from cramp_cli.scratch import make_scratch
+from cramp_cli.settling import Settling
 from cramp_cli.state.failure import NumericalFailure
 from cramp_cli.state.health import check_health
 from cramp_cli.state.measures import FIELDS
@@ -56,7 +57,7 @@ def simulate(
             run.recall(remembered)
         else:
             run.after_step()
-        while state.time < model.end_time - 1e-9 * model.dt:
+        while state.time < model.end_time - 1e-9 * model.dt and not run.settling.has_ended:
             step(model, state, run.scratch, run.watch)
             run.let_cracks_grow()
             run.let_events_happen()
@@ -70,7 +71,8 @@ def simulate(
         reporter.message("info", run.watch.table())
     speed = run.steps_after_first() * len(state.particles.mass) / max(wall - first, 1e-9)
     found = (speed or None, tuple(growth_of_ends(model, state)), tuple(past_events(model, state)))
-    return Summary(state.step, state.time, wall, run.tips, run.balance.error, *found)
+    rest = run.settling.outcome(model, run.tips)
+    return Summary(state.step, state.time, wall, run.tips, run.balance.error, *found, rest)
 
 
 class _Run:
@@ -81,6 +83,7 @@ class _Run:
         self.outputs, self.reporter, self.keeper = outputs, reporter, keeper
         self.scratch, self.watch = make_scratch(model, state, threads), Stopwatch()
         self.balance, self.begun_at = Balance(state, deck.solver), state.step
+        self.settling = Settling(model)
         self.history_due = Due(deck.output.history_every, model.dt)
         self.tips_due = Due(deck.fracture.every, model.dt)
         self.frame_due = Due(deck.output.every, model.dt)
@@ -115,6 +118,7 @@ class _Run:
             self._tell_strange_rows()
             self._tell_short_domains()
             self._tell_lost_faces()
+        self.settling.look(self.model, self.state, self.scratch)
         self._write(self.history_due, self.tips_due, self.frame_due)
         if self.keeper:
             self.keeper.after_step(self.state, self.remember)
@@ -136,6 +140,7 @@ class _Run:
         check_health(self.model, self.state)  # a checkpoint of an ill state is of no use
         return {
             "balance": {name: getattr(self.balance, name) for name in Balance.REMEMBERED},
+            "settling": {name: getattr(self.settling, name) for name in Settling.REMEMBERED},
             "due": {name: getattr(self, name).count for name in DUES},
             "tips": self.tips,
             "written": sorted(self.written),
@@ -146,6 +151,7 @@ class _Run:
     def recall(self, remembered) -> None:
         """Go on from what `remember` gave."""
         vars(self.balance).update(remembered["balance"])
+        vars(self.settling).update(remembered["settling"])
         for name, count in remembered["due"].items():
             getattr(self, name).count = count
         self.tips, self.told = remembered["tips"], set(remembered["told"])
@@ -165,10 +171,14 @@ class _Run:
         return max(self.state.step - self.begun_at - 1, 0)
 
     def last(self) -> None:
-        """Write the end of the run."""
+        """Write the end of the run, and tell whether it has come to rest."""
         check_health(self.model, self.state)
         self._write(*(lambda time: True,) * 3)
         self.outputs.last_paths(path_rows(self.model, self.state))
+        if self.model.rest.stops:
+            limit = "" if self.settling.has_ended else "; solver.end_time is the limit"
+            text = self.settling.outcome(self.model, self.tips)
+            self.reporter.message("warning" if limit else "info", f"{text}{limit}")
 
     def headline(self) -> dict:
         """Return the numbers worth a look while it runs."""
@@ -183,7 +193,8 @@ class _Run:
             self.outputs.history(books | self._reactions() | self._contact_forces())
             self.balance.judge(self.state, self.reporter)
         if self.model.crack_names and tips_due(time) and self._first("tips"):
-            self.tips = sample_tips(self.model, self.state, self.scratch)
+            rows = sample_tips(self.model, self.state, self.scratch)
+            self.tips = self.settling.with_words(self.model, rows)
             self.outputs.tips(self.tips)
         if frame_due(time) and self._first("frame"):
             self._frame()

@@ -99,11 +99,12 @@ def move(model, state, scratch) -> None:
     particles, conditions, again = state.particles, model.conditions, model.scheme.again
     before = _loads_times_places(model, scratch, particles)
     weighed = _weighed(particles) if conditions.gravity else 0.0
+    damping = tuple(state.drag.tolist()) if model.rest.auto else model.damping
     if again:
         to_grid.clear(scratch.grid.saved, scratch.row_count)
     for number, b in _solids(model):
         args = (particles, scratch.grid, scratch.stencil, model.update, b.shape, model.strides)
-        rest = (model.damping, model.dt, again, scratch.per_band)
+        rest = (damping, model.dt, again, scratch.per_band)
         _scatter(scratch, to_particles.move_particles, number, *args, *rest)
         state.books.damping[0] += float(scratch.per_band.sum())
     after = _loads_times_places(model, scratch, particles)
