@@ -72,8 +72,9 @@ class Settling:
             return f"at rest at {self.rested:.6g} s"
         moving = [row["status"].split("moving: ")[1] for row in tips if "moving: " in row["status"]]
         if moving or model.rest.stops:
-            return ": ".join(["not at rest", *moving[:1]])
-        return ""
+            text = ": ".join(["not at rest", *moving[:1]])
+            return f"{text}; solver.end_time is the limit" if model.rest.stops else text
+        return "K of all tips has settled to 1 %" if model.rest.watched and tips else ""
 
     def _is_due(self, time) -> bool:
         return not self.samples or time >= self.samples[-1][0] + self.stretch / SAMPLES
@@ -91,7 +92,7 @@ class Settling:
         change *= 2.0 if what == "J" else 1.0  # its root was watched
         if not change > SETTLED:
             return row
-        word = f"moving: {what} still changes by {_percent(change)} %"
+        word = f"moving: {what} still changes by {_percent(change)}"
         before = "" if row["status"] == "ok" else f"{row['status']}; "
         return row | {"status": before + word}
 
@@ -189,4 +190,4 @@ def _loaded(model, state) -> float:
 
 
 def _percent(share: float) -> str:
-    return f"{100.0 * share:.2g}" if share < 1.0 else f"{100.0 * share:.0f}"
+    return f"{100.0 * share:.2g} %" if share < 0.995 else "100 % or more"

@@ -11,6 +11,7 @@ from cramp_cli.cracks.account import growth_of_ends, path_rows
 from cramp_cli.cracks.cohesion import parted_points, tractions_now
 from cramp_cli.cracks.fields import find_rows, list_cracks
 from cramp_cli.cracks.grow import blind_tips, grow
+from cramp_cli.cracks.straight_path import UNSTABLE, with_past
 from cramp_cli.cracks.tips import sample_tips
 from cramp_cli.energy_balance import Balance
 from cramp_cli.numerics.call import records_of_one_run
@@ -176,9 +177,8 @@ class _Run:
         self._write(*(lambda time: True,) * 3)
         self.outputs.last_paths(path_rows(self.model, self.state))
         if self.model.rest.stops:
-            limit = "" if self.settling.has_ended else "; solver.end_time is the limit"
-            text = self.settling.outcome(self.model, self.tips)
-            self.reporter.message("warning" if limit else "info", f"{text}{limit}")
+            level = "info" if self.settling.has_ended else "warning"
+            self.reporter.message(level, self.settling.outcome(self.model, self.tips))
 
     def headline(self) -> dict:
         """Return the numbers worth a look while it runs."""
@@ -194,7 +194,8 @@ class _Run:
             self.balance.judge(self.state, self.reporter)
         if self.model.crack_names and tips_due(time) and self._first("tips"):
             rows = sample_tips(self.model, self.state, self.scratch)
-            self.tips = self.settling.with_words(self.model, rows)
+            self.tips = with_past(self.settling.with_words(self.model, rows), self.told)
+            self._tell_unstable_ways()
             self.outputs.tips(self.tips)
         if frame_due(time) and self._first("frame"):
             self._frame()
@@ -259,6 +260,14 @@ class _Run:
                 name = self.model.conditions.names[grip.hold.boundary]
                 text = f"boundary '{name}' holds no particle any more"
                 self._tell(f"lost {name}", text, "the body has torn, or left it: look at a frame")
+
+    def _tell_unstable_ways(self) -> None:
+        """Say once of each tip when its way hangs on what is smaller than a cell."""
+        for row in self.tips:
+            name = f"{row['crack']} {row['tip']}"
+            if UNSTABLE in row["status"]:
+                text = f"the way of {name} is unstable: where it goes from here tells nothing"
+                self._tell(f"{UNSTABLE} {name}", text, "see docs/theory/growth.md, Overloads")
 
     def _tell_remarks(self) -> None:
         """Pass on what the step has to say, but not without end."""
