@@ -34,9 +34,6 @@ def rest_mistakes(deck: Any) -> Iterator[Wrong]:
     for path, curve in curves(deck):
         if isinf(curve.last_change):
             yield (*path, "cycles"), "is missing: a load that never ends lets nothing come to rest"
-        elif curve.last_change > deck.solver.end_time:
-            until = f"changes until {curve.last_change:g} s, after end_time"
-            yield path, f"{until}: the run can not be at rest before"
 
 
 def curves(part: Any, path: Path = ()) -> Iterator[tuple[Path, Any]]:
