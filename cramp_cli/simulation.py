@@ -11,11 +11,13 @@ from cramp_cli.cracks.account import growth_of_ends, path_rows
 from cramp_cli.cracks.cohesion import parted_points, tractions_now
 from cramp_cli.cracks.fields import find_rows, list_cracks
 from cramp_cli.cracks.grow import blind_tips, grow
+from cramp_cli.cracks.straight_path import UNSTABLE, with_past
 from cramp_cli.cracks.tips import sample_tips
 from cramp_cli.energy_balance import Balance
 from cramp_cli.numerics.call import records_of_one_run
 from cramp_cli.output.summary import Summary
 from cramp_cli.scratch import make_scratch
+from cramp_cli.settling import Settling
 from cramp_cli.state.failure import NumericalFailure
 from cramp_cli.state.health import check_health
 from cramp_cli.state.measures import FIELDS
@@ -56,7 +58,7 @@ def simulate(
             run.recall(remembered)
         else:
             run.after_step()
-        while state.time < model.end_time - 1e-9 * model.dt:
+        while state.time < model.end_time - 1e-9 * model.dt and not run.settling.has_ended:
             step(model, state, run.scratch, run.watch)
             run.let_cracks_grow()
             run.let_events_happen()
@@ -72,7 +74,8 @@ def simulate(
         reporter.message("info", run.watch.table())
     speed = run.steps_after_first() * len(state.particles.mass) / max(wall - first, 1e-9)
     found = (speed or None, tuple(growth_of_ends(model, state)), tuple(past_events(model, state)))
-    return Summary(state.step, state.time, wall, run.tips, run.balance.error, *found)
+    rest = run.settling.outcome(model, run.tips)
+    return Summary(state.step, state.time, wall, run.tips, run.balance.error, *found, rest)
 
 
 class _Run:
@@ -83,6 +86,7 @@ class _Run:
         self.outputs, self.reporter, self.keeper = outputs, reporter, keeper
         self.scratch, self.watch = make_scratch(model, state, threads), Stopwatch()
         self.balance, self.begun_at = Balance(state, deck.solver), state.step
+        self.settling = Settling(model)
         self.history_due = Due(deck.output.history_every, model.dt)
         self.tips_due = Due(deck.fracture.every, model.dt)
         self.frame_due = Due(deck.output.every, model.dt)
@@ -117,6 +121,7 @@ class _Run:
             self._tell_strange_rows()
             self._tell_short_domains()
             self._tell_lost_faces()
+        self.settling.look(self.model, self.state, self.scratch)
         self._write(self.history_due, self.tips_due, self.frame_due)
         if self.keeper:
             self.keeper.after_step(self.state, self.remember)
@@ -138,6 +143,7 @@ class _Run:
         check_health(self.model, self.state)  # a checkpoint of an ill state is of no use
         return {
             "balance": {name: getattr(self.balance, name) for name in Balance.REMEMBERED},
+            "settling": {name: getattr(self.settling, name) for name in Settling.REMEMBERED},
             "due": {name: getattr(self, name).count for name in DUES},
             "tips": self.tips,
             "written": sorted(self.written),
@@ -148,6 +154,7 @@ class _Run:
     def recall(self, remembered) -> None:
         """Go on from what `remember` gave."""
         vars(self.balance).update(remembered["balance"])
+        vars(self.settling).update(remembered["settling"])
         for name, count in remembered["due"].items():
             getattr(self, name).count = count
         self.tips, self.told = remembered["tips"], set(remembered["told"])
@@ -167,10 +174,13 @@ class _Run:
         return max(self.state.step - self.begun_at - 1, 0)
 
     def last(self) -> None:
-        """Write the end of the run."""
+        """Write the end of the run, and tell whether it has come to rest."""
         check_health(self.model, self.state)
         self._write(*(lambda time: True,) * 3)
         self.outputs.last_paths(path_rows(self.model, self.state))
+        if self.model.rest.stops:
+            level = "info" if self.settling.has_ended else "warning"
+            self.reporter.message(level, self.settling.outcome(self.model, self.tips))
 
     def headline(self) -> dict:
         """Return the numbers worth a look while it runs."""
@@ -185,7 +195,9 @@ class _Run:
             self.outputs.history(books | self._reactions() | self._contact_forces())
             self.balance.judge(self.state, self.reporter)
         if self.model.crack_names and tips_due(time) and self._first("tips"):
-            self.tips = sample_tips(self.model, self.state, self.scratch)
+            rows = sample_tips(self.model, self.state, self.scratch)
+            self.tips = with_past(self.settling.with_words(self.model, rows), self.told)
+            self._tell_unstable_ways()
             self.outputs.tips(self.tips)
         if frame_due(time) and self._first("frame"):
             self._frame()
@@ -250,6 +262,14 @@ class _Run:
                 name = self.model.conditions.names[grip.hold.boundary]
                 text = f"boundary '{name}' holds no particle any more"
                 self._tell(f"lost {name}", text, "the body has torn, or left it: look at a frame")
+
+    def _tell_unstable_ways(self) -> None:
+        """Say once of each tip when its way hangs on what is smaller than a cell."""
+        for row in self.tips:
+            name = f"{row['crack']} {row['tip']}"
+            if UNSTABLE in row["status"]:
+                text = f"the way of {name} is unstable: where it goes from here tells nothing"
+                self._tell(f"{UNSTABLE} {name}", text, "see docs/theory/growth.md, Overloads")
 
     def _tell_remarks(self) -> None:
         """Pass on what the step has to say, but not without end."""

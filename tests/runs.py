@@ -4,6 +4,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from support import read
+
 from cramp_cli.build import build
 from cramp_cli.deck.deck import read_deck
 from cramp_cli.simulation import simulate
@@ -78,7 +80,15 @@ class Run:
 
 def run_input(name, *settings):
     """Run inputs/<name>.yaml to its end; `settings` are those of -s."""
-    deck = read_deck(INPUTS / f"{name}.yaml", settings)
+    return _run(read_deck(INPUTS / f"{name}.yaml", settings))
+
+
+def run_deck(deck, **overrides):
+    """Run a deck, text or data, to its end; overrides as in `support.build_deck`."""
+    return _run(read(deck, **overrides))
+
+
+def _run(deck):
     model, state = build(deck)
     rows, listener = Rows(), Listener()
     simulate(deck, model, state, rows, listener)

@@ -38,7 +38,7 @@ def estimate(deck) -> dict:
         "cells": " x ".join(str(count) for count in size.cells),
         "particles": round(size.particles),
         "time step": f"{dt:.6g} s",
-        "steps": ceil(deck.solver.end_time / dt),
+        "steps": _steps(deck.solver, dt),
     }
     for name, material in deck.materials.items():
         facts |= _material_facts(deck, name, material)
@@ -47,6 +47,12 @@ def estimate(deck) -> dict:
         "memory_bytes": size.memory_bytes + int(size.particles * remembered),
         "disk_bytes": int(size.particles * (written + 3 * (CHECKPOINT_BYTES + remembered))),
     }
+
+
+def _steps(solver, dt):
+    """Return the number of steps; of a run that ends at rest the most it may take."""
+    steps = ceil(solver.end_time / dt)
+    return steps if solver.stop_when == "end_time" else f"{steps} at most; fewer if at rest before"
 
 
 def _material_facts(deck, name, material) -> dict:

@@ -10,6 +10,7 @@ from cramp_cli.build.events import EventList
 from cramp_cli.build.growth import build_propagation
 from cramp_cli.build.junctions import join
 from cramp_cli.build.laws import law_of
+from cramp_cli.build.rest import damping_of, rest_of
 from cramp_cli.build.seeds import Seeds, are_sized, seed_bodies
 from cramp_cli.contact.adhesion import no_bonds
 from cramp_cli.cracks.tips import Fracture
@@ -70,7 +71,8 @@ def build(deck: Deck) -> tuple[Model, State]:
         update=_update(deck.solver),
         calm_tips=deck.solver.update_name == "flip",
         scheme=SCHEMES[deck.solver.strain],
-        damping=(deck.solver.damping.grid, deck.solver.damping.particle),
+        damping=damping_of(deck.solver),
+        rest=rest_of(deck),
         dt=time_step(deck),
         end_time=deck.solver.end_time,
         crack_names=tuple(crack.name for crack in deck.cracks),
@@ -107,6 +109,7 @@ def build(deck: Deck) -> tuple[Model, State]:
         growth=make_growth(paths),
         bonds=no_bonds(),
         events=np.full(len(events.events), np.inf),
+        drag=np.array(model.damping),
     )
 
 

@@ -9,6 +9,7 @@ from math import isnan, pi, sqrt
 import numpy as np
 
 from cramp_cli.cracks.cloud import chosen_from
+from cramp_cli.cracks.straight_path import unstable_path
 from cramp_cli.materials.geometry import Axisymmetric, is_plane_stress
 from cramp_cli.materials.law import confined_modulus, poisson_ratio
 from cramp_cli.state.measures import from_history
@@ -35,12 +36,11 @@ def doubts(model, site, row, moving: bool) -> list[str]:
     particles = chosen_from(site.cloud.particles, near)
     found = [*_of_law(particles, site), *_of_rings(model, site, row), *_of_cells(model, site)]
     if moving:
-        return found + _of_running(model, row)
+        return found + _of_running(model, row) + unstable_path(model, site, row)
     if not len(near):
         return found
     width, stiffness = model.lattice.width, site.hooke.stiffness
-    energy = float(particles.work.mean()) + ROUND_OFF**2 * stiffness
-    noise = NOISE * AROUND * width * energy
+    noise = noise_around(model, site)
     if "closed" in row["status"]:
         return [*found, *_of_closed(row, stiffness, noise)]
     return [
@@ -48,6 +48,20 @@ def doubts(model, site, row, moving: bool) -> list[str]:
         *_contradictions(row, stiffness, noise),
         *_of_spin(particles, site, row, width, noise),
     ]
+
+
+def noise_around(model, site) -> float:
+    """Return the energy release rate (J/m^2) that is noise beside the strain energy at a tip."""
+    particles, width = site.cloud.particles, model.lattice.width
+    near = np.hypot(*(particles.origin - site.frame.origin).T) < AROUND * width
+    energy = float(particles.work[near].mean()) if near.any() else 0.0
+    return NOISE * AROUND * width * (energy + ROUND_OFF**2 * stiffness_at(site))
+
+
+def stiffness_at(site) -> float:
+    """Return E' at a tip (Pa); the modulus of uniaxial strain where the law has no K."""
+    stiffness = site.hooke.stiffness
+    return confined_modulus(site.block.law) if isnan(stiffness) else stiffness
 
 
 def _of_running(model, row) -> list[str]:

@@ -16,6 +16,7 @@ from cramp_cli.cracks.extend import add_point, cover_end, end_point, make_room, 
 from cramp_cli.cracks.intensity import open_and_slide, opening_near_tip
 from cramp_cli.cracks.interface import choose_course
 from cramp_cli.cracks.meeting import first_met, has_left_body, join_met, leave_body, stay_on_grid
+from cramp_cli.cracks.overlap import is_shut
 from cramp_cli.cracks.speed import Pull
 from cramp_cli.cracks.tip_load import LONG, line_of, load_on
 from cramp_cli.cracks.tips import USUAL, Tip, crack_length, tips_of
@@ -102,6 +103,8 @@ def _grow_tip(model, state, scratch, tip) -> list[dict]:
         return []
     load = _load_of(state.paths, tip, found)
     growth.speed[k] = _speed(model, state, tip, resistance, load)
+    if growth.speed[k] > 0.0 and is_shut(model, state.paths, tip, found.site, load):
+        growth.speed[k] = 0.0  # J of faces that lie in each other tells nothing, whatever is asked
     if growth.speed[k] <= 0.0:
         return _rest(model, state, tip, resistance)
     return _run(model, state, scratch, tip, found, load, resistance.criterion)

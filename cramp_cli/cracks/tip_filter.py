@@ -15,6 +15,7 @@ from cramp_cli.numerics.kernel import kernel
 from cramp_cli.shapes.shape import offsets, place_of, weights
 from cramp_cli.state.growth import running_tips
 from cramp_cli.transfer.rows import row_and_weight, rows_seen
+from cramp_cli.transfer.sums import damping_now
 
 CORE, SKIN = 3.0, 1.0  # cells around a tip that are its own, and in which that fades
 SEEN = 3.0  # cells beyond that whose particles share nodes with those filtered
@@ -76,7 +77,7 @@ def leave_to_tips(model, state, near) -> None:
     """
     if near is None:
         return
-    particles, (grid, particle), dt = state.particles, model.damping, model.dt
+    particles, (grid, particle), dt = state.particles, damping_now(model, state), model.dt
     V, new = near.velocity, particles.velocity[near.chosen]
     filtered = (new + particle * dt * V) / (1.0 - grid * dt)  # without the damping of the deck
     free = V + dt * particles.acceleration[near.chosen]

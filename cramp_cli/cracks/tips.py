@@ -20,6 +20,7 @@ from cramp_cli.cracks.domain_integral import Hooke, TipFrame, inner_radius, mate
 from cramp_cli.cracks.doubts import doubts
 from cramp_cli.cracks.face_terms import drawn, rubbed_off, zone_energy
 from cramp_cli.cracks.intensity import K_from_J, open_and_slide, opening_near_tip
+from cramp_cli.cracks.overlap import overlapping
 from cramp_cli.cracks.room import find_room, nearest_body
 from cramp_cli.cracks.segments import ON_CRACK
 from cramp_cli.materials.geometry import Axisymmetric, depth
@@ -126,7 +127,7 @@ def _sample(model, state, scratch, tip) -> dict:
         remarks.append(remark)
     row["status"] = "; ".join(filter(None, remarks))
     moving = bool(grown and row["speed"] > 0.0)
-    remarks += doubts(model, site, row, moving)
+    remarks += doubts(model, site, row, moving) + overlapping(model, state.paths, tip, site, row)
     return row | {"status": "; ".join(filter(None, remarks)) or "ok"}
 
 

@@ -25,6 +25,7 @@ from cramp_cli.deck.materials import AnyMaterial
 from cramp_cli.deck.overrides import apply_overrides
 from cramp_cli.deck.parts import parts_of, salvage
 from cramp_cli.deck.propagation import InterfaceSection, PropagationSection
+from cramp_cli.deck.rest import rest_mistakes
 from cramp_cli.deck.ring_checks import ring_mistakes
 from cramp_cli.deck.run import FractureSection, OutputSection, SolverSection
 from cramp_cli.deck.solids import Isotropic
@@ -155,7 +156,7 @@ def check_deck(source: Source, folder: Path) -> Deck:
         deck, numbers = each_apart(deck)
         between = list(end_mistakes(deck))
         deck = choose_ends(deck)
-        rules = (growth_mistakes, contact_mistakes, ring_mistakes, event_mistakes)
+        rules = (growth_mistakes, contact_mistakes, ring_mistakes, event_mistakes, rest_mistakes)
         between += [one for rule in rules for one in rule(deck)]
         wrong += [as_written(one, numbers) for one in between]
     found += [source.mistake(*one) for one in wrong]

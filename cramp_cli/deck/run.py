@@ -4,9 +4,9 @@ import re
 from collections.abc import Iterator
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
+from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag, WithJsonSchema
 
-from cramp_cli.schema.section import Count, Flag, Section, Wrong, unknown
+from cramp_cli.schema.section import TAG, Count, Flag, Section, Wrong, unknown
 from cramp_cli.schema.units import Damping, Length, Number, Time, complaint
 
 STABLE_CFL = 0.1  # bears all orders that were measured, with strain updates without a second sum
@@ -51,6 +51,22 @@ class DampingSection(Section):
     particle: Damping = Field(0.0, ge=0, description="drag on the velocity of particles")
 
 
+AUTO = "auto"
+
+
+def _is_damping(data: Any) -> Any:
+    if isinstance(data, str) and data != AUTO:
+        raise complaint(f"must be {AUTO}, or a section such as {{particle: 1000 1/s}}", data)
+    return data
+
+
+AnyDamping = Annotated[
+    Annotated[Literal["auto"], Tag(TAG + AUTO)] | Annotated[DampingSection, Tag(TAG)],
+    Discriminator(lambda data: TAG + AUTO if isinstance(data, str) else TAG),
+    BeforeValidator(_is_damping),
+]
+
+
 class EnergySection(Section):
     """How far the energy balance may be off, as a share of the largest energy so far."""
 
@@ -66,7 +82,12 @@ class EnergySection(Section):
 class SolverSection(Section):
     """How the equations are solved in time."""
 
-    end_time: Time = Field(gt=0, description="time at which the run ends")
+    end_time: Time = Field(gt=0, description="time at which the run ends, at the latest")
+    stop_when: Literal["end_time", "at_rest"] = Field(
+        "end_time",
+        description="at_rest: the run ends when all loads are there, and K of every tip and the "
+        "strain energy have settled to 1 % over a period of the slowest motion",
+    )
     shape: Literal["linear", "ugimp", "bspline2", "bspline3", "cpdi"] = Field(
         "ugimp",
         description="shape functions between particles and grid: linear, uniform GIMP, "
@@ -83,7 +104,11 @@ class SolverSection(Section):
     strain: Literal["usf", "usl-", "usl+", "usavg-", "usavg+"] = Field(
         "usavg+", description="when strain is updated: before (usf), after (usl), half and half"
     )
-    damping: DampingSection = Field(default_factory=DampingSection, description="damping")
+    damping: AnyDamping = Field(
+        default_factory=DampingSection,
+        description="drag; auto: on particles, near critical for the slowest motion, found while "
+        "running, for a static answer",
+    )
     cfl: Number = Field(0.5, gt=0, le=1, description="share of the longest stable time step")
     dt: Time | None = Field(None, gt=0, description="upper limit of the time step")
     leaving: Literal["error", "delete", "clamp"] = Field(

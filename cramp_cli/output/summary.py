@@ -23,12 +23,14 @@ class Summary(NamedTuple):
     particle_steps_per_second: float | None = None
     growth: tuple = ()  # of dict: crack, tip, grown (m), energy (J), x, y (m), fate
     events: tuple = ()  # of dict: time (s), event
+    rest: str = ""  # whether it has come to rest, of runs with damping
 
 
 def summary_text(summary: Summary) -> str:
     """Return the table of the tips and the numbers that judge the run."""
     rate, error = summary.particle_steps_per_second, summary.energy_error
     facts = {
+        "rest": summary.rest,
         "energy error": "" if error is None else f"{100.0 * error:.3g} %",
         "wall time": f"{duration(summary.wall_time)} for {summary.steps} steps",
         "speed": "" if rate is None else f"{rate:.3g} particle-steps/s",

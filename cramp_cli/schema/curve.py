@@ -6,7 +6,7 @@ prescribed velocity has gone.
 
 from bisect import bisect_right
 from collections.abc import Iterator
-from math import cos, pi, radians, sin
+from math import cos, inf, pi, radians, sin
 from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field
@@ -28,6 +28,11 @@ class Constant(Section):
         """Return the integral of the factor from time 0 to t >= 0 (s)."""
         return t
 
+    @property
+    def last_change(self) -> float:
+        """Time from which on the factor stays (s)."""
+        return 0.0
+
 
 class Step(Section):
     """Full from time 0, the same as `constant`."""
@@ -41,6 +46,11 @@ class Step(Section):
     def integral(self, t: float) -> float:
         """Return the integral of the factor from time 0 to t >= 0 (s)."""
         return t
+
+    @property
+    def last_change(self) -> float:
+        """Time from which on the factor stays (s)."""
+        return 0.0
 
 
 class Ramp(Section):
@@ -62,6 +72,11 @@ class Ramp(Section):
     def integral(self, t: float) -> float:
         """Return the integral of the factor from time 0 to t >= 0 (s)."""
         return self._area(t) - self._area(0.0)
+
+    @property
+    def last_change(self) -> float:
+        """Time from which on the factor stays (s)."""
+        return self.until
 
     def _area(self, t: float) -> float:
         rising = min(max(t - self.start, 0.0), self.until - self.start)
@@ -104,6 +119,11 @@ class Table(Section):
         pieces = zip(times, times[1:], values, values[1:], strict=False)
         return sum(0.5 * (v0 + v1) * (t1 - t0) for t0, t1, v0, v1 in pieces)
 
+    @property
+    def last_change(self) -> float:
+        """Time from which on the factor stays (s)."""
+        return self.time[-1]
+
 
 class Sine(Section):
     """0 before `start`, then sin(2 pi frequency (t - start) + phase), for a number of cycles."""
@@ -126,6 +146,11 @@ class Sine(Section):
     def integral(self, t: float) -> float:
         """Return the integral of the factor from time 0 to t >= 0 (s)."""
         return self._area(t) - self._area(0.0)
+
+    @property
+    def last_change(self) -> float:
+        """Time from which on the factor stays (s); infinite without a number of cycles."""
+        return inf if self.cycles is None else self.start + self.cycles / self.frequency
 
     def _area(self, t: float) -> float:
         turns = max(self.frequency * (t - self.start), 0.0)
@@ -154,6 +179,11 @@ class Pulse(Section):
     def integral(self, t: float) -> float:
         """Return the integral of the factor from time 0 to t >= 0 (s)."""
         return self._area(t) - self._area(0.0)
+
+    @property
+    def last_change(self) -> float:
+        """Time from which on the factor stays (s)."""
+        return self.start + self.duration
 
     def _area(self, t: float) -> float:
         share = min(max((t - self.start) / self.duration, 0.0), 1.0)

@@ -11,6 +11,7 @@ from cramp_cli.state.growth import Growth
 from cramp_cli.state.lattice import Lattice
 from cramp_cli.state.particles import Particles
 from cramp_cli.state.paths import Paths
+from cramp_cli.state.rest import Rest
 from cramp_cli.state.stencil import Stencil
 
 
@@ -68,7 +69,7 @@ class Model:
     blocks: tuple  # of Block
     update: Any  # FLIP, FMPM, XPIC
     scheme: Scheme
-    damping: tuple  # grid, particle (1/s)
+    damping: tuple  # grid, particle (1/s); those of the start if it is found while running
     dt: float  # s
     end_time: float  # s
     crack_names: tuple
@@ -86,6 +87,7 @@ class Model:
     leaving: str = "error"  # what particles that leave the grid are: transfer/leaving.py
     calm_tips: bool = False  # filter particles around running tips: FLIP does not by itself
     tip_nodes: TipNodes | None = None  # None: cut at once, by the line test alone (the paper)
+    rest: Rest = Rest()  # when a run to a static answer is at rest
     nodes: tuple = field(init=False)
     strides: tuple = field(init=False)
 
@@ -110,6 +112,7 @@ class State:
     growth: Growth
     bonds: np.ndarray  # (n, 4) of bodies that stick to each other: contact/adhesion.py
     events: np.ndarray  # (events,) when each has happened (s), infinite before
+    drag: np.ndarray  # (2,) damping of grid and particles, where it is found while running (1/s)
 
 
 @dataclass

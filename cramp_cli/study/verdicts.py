@@ -10,6 +10,7 @@ from cramp_cli.output.look import describe
 from cramp_cli.output.tables import number
 from cramp_cli.study.results import Columns, by_tip, read_table
 
+REST_WANTED = "end_time is the limit"  # of a run that should have ended at rest
 SETTLED = 50  # steps; as a run judges its energy balance
 CLOSE = 0.05  # of J: domain and contour, or domains of several radii, differ by less
 
@@ -31,6 +32,7 @@ def judge(run: Path, limits) -> list[Verdict]:
     return [
         *_of_run(describe(run)),
         *_of_energy(read_table(run / "history.csv"), limits),
+        *_of_rest(describe(run)["manifest"]),
         *(verdict for tip, rows in tips.items() for verdict in _of_tip(tip, rows)),
         *_of_log(run / "run.log"),
     ]
@@ -55,6 +57,15 @@ def _of_energy(table: Columns, limits) -> Iterator[Verdict]:
     mark = "good" if worst <= 100.0 * limits.warn else "bad"
     least = f"after {SETTLED} steps; the limit is {100.0 * limits.warn:g} %"
     yield Verdict(mark, "Is energy conserved?", f"within {number(worst)} % {least}")
+
+
+def _of_rest(manifest: dict) -> Iterator[Verdict]:
+    """A run with damping is at rest, is not and should, or need not be."""
+    text = manifest.get("summary", {}).get("rest", "")
+    if text:
+        wanted = REST_WANTED in text
+        mark = "bad" if wanted else "look" if text.startswith("not") else "good"
+        yield Verdict(mark, "Has it come to rest?", text)
 
 
 def _of_tip(tip: str, rows: Columns) -> Iterator[Verdict]:

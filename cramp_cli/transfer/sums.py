@@ -105,7 +105,7 @@ def move(model, state, scratch) -> None:
         to_grid.clear(scratch.grid.saved, scratch.row_count)
     for number, b in _solids(model):
         args = (particles, scratch.grid, scratch.stencil, model.update, b.shape, model.strides)
-        rest = (model.damping, model.dt, again, scratch.per_band)
+        rest = (damping_now(model, state), model.dt, again, scratch.per_band)
         _scatter(scratch, to_particles.move_particles, number, *args, *rest)
         state.books.damping[0] += float(scratch.per_band.sum())
     after = _loads_times_places(model, scratch, particles)
@@ -114,6 +114,11 @@ def move(model, state, scratch) -> None:
     if conditions.gravity:
         g = conditions.body_force(state, len(model.strides))
         state.books.external[0] += float((_weighed(particles) - weighed) @ g)
+
+
+def damping_now(model, state) -> tuple[float, float]:
+    """Return the drag on the velocities of grid and particles in a step (1/s)."""
+    return tuple(state.drag.tolist()) if model.rest.auto else model.damping
 
 
 def smooth(model, state, scratch, target, field) -> None:

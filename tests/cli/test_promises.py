@@ -33,6 +33,7 @@ from cramp_cli.output.exits import FolderError
 from cramp_cli.output.fields import read_frames
 from cramp_cli.output.look import describe, facts
 from cramp_cli.output.stop import Signs
+from cramp_cli.settling import Settling
 from cramp_cli.simulation import DUES, MOST_REMARKS, _Run
 from cramp_cli.state.failure import NumericalFailure
 from cramp_cli.state.measures import FIELDS
@@ -101,6 +102,7 @@ def test_1_all_that_the_loop_over_time_holds_is_kept_or_follows_from_the_state()
     kept = set(run.remember())
     assert set(vars(run)) - follows - {*DUES} == kept - {"due"}
     assert set(vars(run.balance)) - {"limits", "solver"} == {*Balance.REMEMBERED}
+    assert set(vars(run.settling)) == {*Settling.REMEMBERED}
     assert set(vars(run.history_due)) == {"every", "slack", "count"}
 
 
@@ -110,6 +112,23 @@ def test_1_the_number_of_threads_does_not_matter(here):
         assert cramp("run", "plate.yaml", "-o", f"{threads}.run", *words).returncode == 0
     assert differences(here / "1.run", here / "2.run") == []
     assert differences(here / "1.run", here / "4.run") == []
+
+
+def test_1_a_run_that_ends_at_rest_ends_at_the_same_byte(here):
+    """Its drag and its end hang on what it has seen: in pieces and with any number of threads."""
+    rest = {"damping": "auto", "stop_when": "at_rest", "end_time": "2 ms"}
+    sets = [f"solver.{key}={value}" for key, value in rest.items()]
+    options = {"overrides": sets, "checkpoint_every": (50, None)}
+    whole = run_in_pieces(here / "plate.yaml", here / "whole", **options)
+    assert manifest(whole)["summary"]["rest"].startswith("at rest at ")
+    end = manifest(whole)["summary"]["steps"]
+    stops = 33, end // 2, end - 1
+    pieces = run_in_pieces(here / "plate.yaml", here / "pieces", stops, **options)
+    assert differences(whole, pieces) == []
+    for threads in (2, 4):
+        words = ("-t", threads, "--checkpoint-every", 50, *(w for s in sets for w in ("-s", s)))
+        assert cramp("run", "plate.yaml", "-o", f"{threads}.run", *words).returncode == 0
+        assert differences(whole, here / f"{threads}.run") == []
 
 
 @pytest.mark.slow

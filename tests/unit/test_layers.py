@@ -20,7 +20,7 @@ LAYERS = (
     ("step",),
     ("deck", "output"),
     ("build",),
-    ("warm", "clock", "energy_balance"),
+    ("warm", "clock", "energy_balance", "settling"),
     ("simulation",),
     ("study",),
     ("commands", "streams"),

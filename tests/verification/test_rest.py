@@ -59,7 +59,9 @@ def test_K_does_not_creep(tip, line):
 
     Measured from 2 ms on: 1e-4.
     """
-    _, found = edge_crack(tip, line, "solver.end_time=4 ms", "fracture.every=0.5 ms")
+    _, found = edge_crack(
+        tip, line, "solver.stop_when=end_time", "solver.end_time=4 ms", "fracture.every=0.5 ms"
+    )
     late = np.array([row["K_I"] for row in found if row["time"] >= AT_REST])
     assert np.ptp(late) < 1e-3 * late[-1]
 
