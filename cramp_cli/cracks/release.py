@@ -32,9 +32,7 @@ def resist_opening(model, state, scratch) -> None:
         free = min(length / lattice.width, FREE * min(reach / (USUAL * lattice.width), 1.0))
         solid = (scratch.rows, state.paths, model.groups.of_crack)
         radii = (inner_radius(reach, lattice.width), max(reach, 1e-3 * lattice.width))
-        work, taken = _resist(grid, *solid, tip, free, *place, model.dt, radii)
-        growth.sunk[tip] += work
-        growth.taken[tip] += taken
+        growth.taken[tip] += _resist(grid, *solid, tip, free, *place, model.dt, radii)
 
 
 @kernel
@@ -43,9 +41,9 @@ def _resist(grid, rows, paths, of_crack, tip, free, width, lower, strides, dt, r
 
     of_crack: contact group of the bodies that a crack cuts; others may share its nodes
     radii: of the domain of the tip, inner and outer (m)
-    returns: the energy taken, and the part of it that this domain does not count (J; sinks.py)
+    returns: the energy taken that this domain does not count (J; sinks.py)
     """
-    work, taken = 0.0, 0.0
+    taken = 0.0
     crack = tip // 2
     first, last = paths.start[crack], paths.start[crack + 1] - 1
     at = first if tip % 2 == 0 else last
@@ -64,10 +62,8 @@ def _resist(grid, rows, paths, of_crack, tip, free, width, lower, strides, dt, r
         if share > 0.0:
             away = sqrt((x - paths.point[at, 0]) ** 2 + (y - paths.point[at, 1]) ** 2)
             q = weight(min(away, radii[1]), radii[0], radii[1])[0]
-            done = _bring_together(grid, own, across, share, len(strides), dt)
-            work += done
-            taken += (1.0 - q) * done
-    return work, taken
+            taken += (1.0 - q) * _bring_together(grid, own, across, share, len(strides), dt)
+    return taken
 
 
 @kernel

@@ -29,7 +29,7 @@ class Growth(NamedTuple):
     running: np.ndarray  # (ends,) 1 from the onset to an arrest
     rested: np.ndarray  # (ends,) time at rest since it last moved (s)
     length: np.ndarray  # (ends,) grown so far (m)
-    sunk: np.ndarray  # (ends,) energy taken beside it since the start (J)
+    ahead: np.ndarray  # (ends,) energy of its way that the solid has not lost yet (J)
     taken: np.ndarray  # (ends,) energy taken beside its domain since it moved last (J)
     beside: np.ndarray  # (ends,) the same per area of its way, of late (J/m^2)
     smoothed: np.ndarray  # (ends,) length at which its wake was smoothed last (m)
@@ -60,7 +60,7 @@ def make_growth(paths) -> Growth:
         running=np.zeros(n, dtype=np.int64),
         rested=np.zeros(n),
         length=np.zeros(n),
-        sunk=np.zeros(n),
+        ahead=np.zeros(n),
         taken=np.zeros(n),
         beside=np.zeros(n),
         smoothed=np.zeros(n),
