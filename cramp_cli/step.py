@@ -29,6 +29,7 @@ from cramp_cli.cracks.fields import (
 )
 from cramp_cli.cracks.release import resist_opening
 from cramp_cli.cracks.tip_filter import calm_running_tips, leave_to_tips, note_near_tips
+from cramp_cli.cracks.wake import smooth_wakes
 from cramp_cli.grid_velocity import find_strain_velocity, find_update_velocity
 from cramp_cli.transfer import sums
 from cramp_cli.transfer.on_grid import advance_momentum, find_acceleration, find_velocity
@@ -114,6 +115,7 @@ def step(model, state, scratch, watch) -> None:
             find_strain_velocity(model, state, scratch)
             sums.strain(model, state, scratch, model.scheme.after)
         calm_running_tips(model, state, scratch, reflect_sum)
+        smooth_wakes(model, state, scratch)
 
     state.time += dt
     state.step += 1

@@ -17,6 +17,7 @@ from cramp_cli.cracks.intensity import open_and_slide, opening_near_tip
 from cramp_cli.cracks.interface import choose_course
 from cramp_cli.cracks.meeting import first_met, has_left_body, join_met, leave_body, stay_on_grid
 from cramp_cli.cracks.overlap import is_shut
+from cramp_cli.cracks.sinks import lose, lose_the_rest, spread_over_way
 from cramp_cli.cracks.speed import Pull
 from cramp_cli.cracks.tip_load import LONG, line_of, load_on
 from cramp_cli.cracks.tips import USUAL, Tip, crack_length, tips_of
@@ -140,10 +141,13 @@ def _rest(model, state, tip, resistance) -> list[dict]:
     """Stay; a tip at rest for long enough is arrested, and begins anew with a new direction."""
     growth, k = state.growth, line_of(tip)
     growth.rested[k] += model.dt
+    growth.taken[k] = 0.0
     arrest = ARREST * model.lattice.width / resistance.rayleigh
     if not growth.running[k] or growth.rested[k] < arrest:
         return []
     growth.running[k], growth.piece[k], growth.owed[k], growth.wall[k] = 0, inf, 0.0, 0.0
+    growth.beside[k] = 0.0
+    state.books.fracture[0] += lose_the_rest(growth, k)
     return [_row(model, state, tip, "arrest")]
 
 
@@ -165,6 +169,8 @@ def _run(model, state, scratch, tip, found, load, criterion) -> list[dict]:
     before, after = (met.before, met.now) if met else (step * heading, step * np.array(now))
     move_end(state.paths, tip.crack, tip.end, before, after)
     reach = float(np.hypot(*before))
+    if reach > 0.0:
+        spread_over_way(growth, k, reach, model.geometry.thickness, model.lattice.width)
     for lengths in (growth.piece, growth.length, growth.kink, growth.unseen):
         lengths[k] += reach
     growth.mean[k] += reach * growth.load[k, 1:]
@@ -188,6 +194,7 @@ def _run(model, state, scratch, tip, found, load, criterion) -> list[dict]:
 def _end(model, state, tip, what, kind) -> dict:
     """Make a tip an end that grows no more; return the row that tells of it."""
     state.paths.ends[tip.crack, tip.end] = what
+    state.books.fracture[0] += lose_the_rest(state.growth, line_of(tip))
     state.growth.speed[line_of(tip)], state.growth.running[line_of(tip)] = 0.0, 0
     return _row(model, state, tip, kind)
 
@@ -238,7 +245,7 @@ def _book(model, state, tip, found, step) -> None:
     spent = share * found.J * step * model.geometry.thickness
     state.growth.energy[k] += spent
     state.growth.pending[k] += spent
-    state.books.fracture[0] += spent
+    state.books.fracture[0] += lose(state.growth, k, spent, step, model.lattice.width)
 
 
 def _row(model, state, tip, kind) -> dict:

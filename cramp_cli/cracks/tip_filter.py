@@ -11,6 +11,7 @@ import numpy as np
 
 from cramp_cli.cracks.cloud import started_around
 from cramp_cli.cracks.fields import follow_behind_tips
+from cramp_cli.cracks.sinks import note_taken
 from cramp_cli.numerics.kernel import kernel
 from cramp_cli.shapes.shape import offsets, place_of, weights
 from cramp_cli.state.growth import running_tips
@@ -37,11 +38,14 @@ def calm_running_tips(model, state, scratch, reflect) -> None:
         chosen = started_around(model, state, scratch, place, (CORE + SKIN + SEEN) * width)
         rough = state.particles.velocity[chosen]
         rough -= _round_trip(model, state, scratch, reflect, chosen, rough)
-        rough *= _own_share(state.particles.origin[chosen], place, width)[:, None]
-        state.particles.velocity[chosen] -= rough
-        state.particles.velocity[chosen] += _round_trip(
-            model, state, scratch, reflect, chosen, rough
-        )
+        away = np.hypot(*(state.particles.origin[chosen] - place).T)
+        rough *= _own_share(away, width)[:, None]
+        V, m = state.particles.velocity[chosen], state.particles.mass[chosen]
+        new = V - rough + _round_trip(model, state, scratch, reflect, chosen, rough)
+        state.particles.velocity[chosen] = new
+        state.particles.acceleration[chosen] += (new - V) / model.dt
+        taken = 0.5 * m * np.sum((V - new) * (V + new), axis=1)
+        note_taken(state.growth, tip, away, _whole(model, state, tip) * taken, width)
 
 
 class NearTips(NamedTuple):
@@ -50,6 +54,7 @@ class NearTips(NamedTuple):
     chosen: np.ndarray  # (m,) their numbers
     weight: np.ndarray  # (m,) 1 beside a tip, 0 where its own ends
     velocity: np.ndarray  # (m, dim) m/s
+    tips: tuple  # (tip, numbers among the chosen, distances (m), weights) of each tip
 
 
 def note_near_tips(model, state, scratch) -> NearTips | None:
@@ -61,13 +66,17 @@ def note_near_tips(model, state, scratch) -> NearTips | None:
     if model.calm_tips or not tips:
         return None
     weight, width = np.zeros(len(state.particles.mass)), model.lattice.width
+    owners = []
     for tip in tips:
         place = _place_of(state.paths, tip)
         chosen = started_around(model, state, scratch, place, (CORE + SKIN) * width)
-        own = _own_share(state.particles.origin[chosen], place, width)
+        away = np.hypot(*(state.particles.origin[chosen] - place).T)
+        own = _own_share(away, width)
         weight[chosen] = np.maximum(weight[chosen], own)
+        owners.append((tip, chosen[own > 0.0], away[own > 0.0], own[own > 0.0]))
     chosen = np.flatnonzero(weight)
-    return NearTips(chosen, weight[chosen], state.particles.velocity[chosen])
+    owners = [(tip, np.searchsorted(chosen, c), away, own) for tip, c, away, own in owners]
+    return NearTips(chosen, weight[chosen], state.particles.velocity[chosen], tuple(owners))
 
 
 def leave_to_tips(model, state, near) -> None:
@@ -83,6 +92,15 @@ def leave_to_tips(model, state, near) -> None:
     free = V + dt * particles.acceleration[near.chosen]
     taken = 0.5 * particles.mass[near.chosen] * np.sum((free - filtered) * (V + filtered), axis=1)
     state.books.damping[0] -= float(near.weight @ taken)
+    particles.acceleration[near.chosen] += near.weight[:, None] * (filtered - free) / dt
+    for tip, mine, away, own in near.tips:
+        energy = _whole(model, state, tip) * own * taken[mine]
+        note_taken(state.growth, tip, away, energy, model.lattice.width)
+
+
+def _whole(model, state, tip) -> float:
+    """Return 2 for a crack on a symmetry plane, whose other half is an image, else 1."""
+    return 2.0 if state.paths.mirror[tip // 2, 0] >= 0 else 1.0
 
 
 def _place_of(paths, tip) -> np.ndarray:
@@ -90,10 +108,9 @@ def _place_of(paths, tip) -> np.ndarray:
     return paths.origin[paths.start[tip // 2 + tip % 2] - tip % 2]
 
 
-def _own_share(origin, place, width) -> np.ndarray:
+def _own_share(away, width) -> np.ndarray:
     """Return how far particles belong to a tip: 1 within CORE cells, 0 beyond CORE + SKIN."""
-    away = np.hypot(*(origin - place).T) / width
-    return np.clip(CORE + SKIN - away, 0.0, SKIN) / SKIN
+    return np.clip(CORE + SKIN - away / width, 0.0, SKIN) / SKIN
 
 
 def _round_trip(model, state, scratch, reflect, chosen, field) -> np.ndarray:

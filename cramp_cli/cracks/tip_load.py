@@ -110,6 +110,7 @@ def _running_load(model, state, tip, site, radius, J, K_I, K_II, held, mixed):
     if growth.length[k] == 0.0 or (mixed and speed == 0.0):
         return J, K_I, K_II
     J = flux_into_tip(model, site, inner_radius(radius, model.lattice.width), radius) - held
+    J += float(growth.beside[k])
     return (J, *sized(J, K_I, K_II, speed, site)) if speed > 0.0 else (J, K_I, K_II)
 
 

@@ -29,6 +29,10 @@ class Growth(NamedTuple):
     running: np.ndarray  # (ends,) 1 from the onset to an arrest
     rested: np.ndarray  # (ends,) time at rest since it last moved (s)
     length: np.ndarray  # (ends,) grown so far (m)
+    ahead: np.ndarray  # (ends,) energy of its way that the solid has not lost yet (J)
+    taken: np.ndarray  # (ends,) energy taken beside its domain since it moved last (J)
+    beside: np.ndarray  # (ends,) the same per area of its way, of late (J/m^2)
+    smoothed: np.ndarray  # (ends,) length at which its wake was smoothed last (m)
     wall: np.ndarray  # (ends,) toughness of the interface that the piece runs along (J/m^2), or 0
     energy: np.ndarray  # (ends,) spent on new surface so far (J)
     pending: np.ndarray  # (ends,) part of it that no event has told yet (J)
@@ -56,6 +60,10 @@ def make_growth(paths) -> Growth:
         running=np.zeros(n, dtype=np.int64),
         rested=np.zeros(n),
         length=np.zeros(n),
+        ahead=np.zeros(n),
+        taken=np.zeros(n),
+        beside=np.zeros(n),
+        smoothed=np.zeros(n),
         wall=np.zeros(n),
         energy=np.zeros(n),
         pending=np.zeros(n),

@@ -62,9 +62,10 @@ def steady(share):
 
 @pytest.mark.parametrize("share", [0.2, 0.5])
 def test_a_prescribed_speed(share):
-    """C4: J within 5 %, and K_I with it (Freund 1990, eq. 5.3.10).
+    """C4: J within 5 %, aim 3 %, and K_I with it (Freund 1990, eq. 5.3.10).
 
-    Reached on 2026-11-22: J too low by 4.8 % at 0.2 c_R and by 4.4 % at 0.5 c_R.
+    Reached: J too low by 2.1 % at 0.2 c_R and by 3.1 % at 0.5 c_R, of which the solid keeps 2.4 and
+    2.2 %.
     """
     rows, rayleigh = run(steady(share), 0.17)
     speeds = wave_speeds(0.5 * E / (1 + NU), 3 - 4 * NU, 1190.0)
@@ -73,7 +74,7 @@ def test_a_prescribed_speed(share):
     expected = np.sqrt(RELEASE * E / (1 - NU**2) / factor)
     running = rows[rows[:, 1] > 0.12]
     assert speed == pytest.approx(share * rayleigh, rel=1e-3)
-    assert running[:, 3].mean() == pytest.approx(RELEASE, rel=0.05)
+    assert running[:, 3].mean() == pytest.approx(RELEASE, rel=0.035)
     assert running[:, 4].mean() == pytest.approx(expected, rel=0.03)
     assert running[:, 4].std() < 0.03 * expected
     at_rest = rows[(rows[:, 0] > 1.13 * LOADED) & (rows[:, 2] == 0.0)]
@@ -84,11 +85,14 @@ def test_a_prescribed_speed(share):
     ("share", "update"), [(0.2, "flip"), (0.5, "flip"), (0.5, "fmpm(2)"), (0.2, "fmpm(2)")]
 )
 def test_what_is_booked_has_left_the_solid(share, update):
-    """J da against the energy that the run has really lost, over 50 mm of growth."""
+    """J da against the energy that the run has really lost, over 50 mm of growth.
+
+    Within 0.5 %; 2 to 5 % before J counted what the filters take.
+    """
     rows, _ = run(steady(share), 0.17, update=update)
     running = rows[rows[:, 1] > 0.12]
     lost, booked = running[0, 6] - running[-1, 6], running[-1, 7] - running[0, 7]
-    assert booked == pytest.approx(lost, rel=0.05)
+    assert booked == pytest.approx(lost, rel=0.015)
 
 
 def coarse(update, bottom):
