@@ -15,6 +15,9 @@ from cramp_cli.cracks.second_material import add_difference
 from cramp_cli.materials.geometry import Axisymmetric, depth, is_plane_stress
 from cramp_cli.materials.law import poisson_ratio, same_law, shear_modulus
 
+USUAL, SMALLEST = 5.0, 2.5  # radius of the domain in cells, and the least that gives a number
+REACH = 8.0  # cells around a tip or the corner of a kink that an integral can want
+SPREAD = (0.8, 1.2)  # further radii that are compared, in shares of the radius
 BARE = 0.5  # a particle of another material nearer to the tip than this leaves no K (cells)
 LEAK = 0.02  # part of the domain that may be empty: particles are a coarse quadrature
 

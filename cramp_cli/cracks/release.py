@@ -7,9 +7,9 @@ elements: Malluck and King 1980; here in proportion to the momentum that parts t
 docs/theory/growth.md).
 """
 
+from cramp_cli.cracks.domain import USUAL
 from cramp_cli.cracks.followers import sides_beside_tip
 from cramp_cli.cracks.tip_nodes import FAR, along_crack
-from cramp_cli.cracks.tips import USUAL
 from cramp_cli.numerics.kernel import kernel
 from cramp_cli.state.growth import running_tips
 

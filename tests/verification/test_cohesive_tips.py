@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 from runs import run_input
 
-from cramp_cli.cracks.tips import domain_values, site_of, tips_of
+from cramp_cli.cracks.domain import domain_values
+from cramp_cli.cracks.site import site_of
+from cramp_cli.cracks.tips import tips_of
 from cramp_cli.scratch import make_scratch
 
 pytestmark = pytest.mark.verification

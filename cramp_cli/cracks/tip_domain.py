@@ -1,0 +1,126 @@
+"""J, K_I and K_II of a tip by its domain: how large it may be, what it holds, whether closed."""
+
+from math import inf, nan
+
+import numpy as np
+
+from cramp_cli.cracks.contact import GLUED, IGNORE, OPEN
+from cramp_cli.cracks.domain import SMALLEST, SPREAD, USUAL, Values, domain_values
+from cramp_cli.cracks.domain_integral import inner_radius
+from cramp_cli.cracks.face_terms import drawn, rubbed_off, zone_energy
+from cramp_cli.cracks.room import find_room, nearest_body
+from cramp_cli.state.growth import BLEND, HELD, KINK, MIXED
+
+CORRECTED = "corrected: the domain holds another material"
+STAGES = {
+    MIXED: CORRECTED,
+    KINK: "kink: from the field around the corner",
+    BLEND: "kink: partly from the field around the corner",
+    HELD: "held: no room for a domain, the last load found",
+}
+
+
+def recall_growth(model, state, scratch, tip, site):
+    """A tip that has grown has the load that drove it in the last step (tip_load.py)."""
+    k = 2 * tip.crack + tip.end
+    J, K_I, K_II = state.growth.load[k].tolist()
+    remarks = [STAGES.get(int(state.growth.stage[k]), "")]
+    cells = state.growth.reach[k] / model.lattice.width
+    if cells < USUAL and not model.fracture.radii:
+        remarks.append(f"shrunk: a domain of {cells:.2g} cells")
+    if state.growth.wall[k]:
+        remarks.append("along an interface")
+    remark = "; ".join(filter(None, remarks))
+    return _with_zone(model, state, tip, J) | {"K_I": K_I, "K_II": K_II}, remark
+
+
+def _with_zone(model, state, tip, J) -> dict:
+    """Return J of a tip, of the cohesive zone behind it, and of both together."""
+    zone = zone_energy(model, state, tip)
+    return {"J_tip": J, "J_zone": zone, "J": J + zone}
+
+
+def measure_domain(model, state, scratch, tip, site):
+    """Return what the domain gives for a row of cracks.csv, and a remark for its status."""
+    paths, radii, width = state.paths, model.fracture.radii, model.lattice.width
+    wanted, least = radii[0] if radii else USUAL * width, (1.0 - 1e-9) * SMALLEST * width
+    if wanted < least:
+        return {}, f"invalid: the radius is below {SMALLEST:g} cells"
+    room, what = min(
+        find_room(model, paths, tip, site.frame.origin, inf),
+        nearest_body(model, state, tip),
+        (site.follows, "a bend of the crack"),
+    )
+    radius, remark = (room, what) if room < wanted else (wanted, "")
+    measured, radius, remark = _fitting(model, state, site, tip, radius, least, remark)
+    if measured is None or (radii and remark):
+        limit = wanted / width if radii else SMALLEST
+        return {}, f"invalid: {remark} is nearer than {limit:.3g} cells"
+    J, K_I, K_II = measured[:3]
+    others = [r for r in radii[1:] or [s * radius for s in SPREAD] if r <= room]
+    spread = _spread(measured, [tip_values(model, state, site, tip, r) for r in others])
+    status = f"shrunk: {remark} within {wanted / width:.3g} cells" if remark else ""
+    if measured.mixed:
+        status = "; ".join(filter(None, [CORRECTED, status]))
+    here, inner = paths.point[tip.points[0]], inner_radius(radius, width)
+    if is_closed(model, scratch, tip.crack, here, radius, K_I):
+        K_I, status = 0.0, "; ".join(filter(None, ["closed", status]))
+        K_II -= rubbed_off(model, site, tip.crack, inner, radius)
+    values = {"K_I": K_I, "K_II": K_II, "J_spread": spread}
+    return _with_zone(model, state, tip, J) | values, status
+
+
+def _fitting(model, state, site, tip, radius, least, remark):
+    """Return what the largest domain of one material gives, its radius, and what made it smaller.
+
+    If there is none down to `least` (m): of the largest with a second material, or None.
+    """
+    second = None
+    while radius >= least:
+        values = tip_values(model, state, site, tip, radius)
+        if not values.spoiled and not values.mixed:
+            return values, radius, remark
+        if not values.spoiled and second is None:
+            second = values, radius, remark
+        radius, remark = 0.9 * radius, values.spoiled or "another material"
+    return second or (None, radius, remark)
+
+
+def _spread(measured, others) -> float:
+    """Return the spread of J over domains that hold nothing foreign; nan if none has another J."""
+    J = measured.J
+    values = [other.J for other in others if not other.spoiled and other.mixed <= measured.mixed]
+    if not values:
+        return nan
+    return (max(*values, J) - min(*values, J)) / abs(J) if J else 0.0
+
+
+def tip_values(model, state, site, tip, radius) -> Values:
+    """Return what a domain gives without what the faces carry."""
+    found = domain_values(model, site, radius)
+    inner = inner_radius(radius, model.lattice.width)
+    J, K_I, K_II = drawn(model, state, tip, site.frame, inner, radius).tolist()
+    return found._replace(J=found.J - J, K_I=found.K_I - K_I, K_II=found.K_II - K_II)
+
+
+def is_closed(model, scratch, crack, place, radius, K_I) -> bool:
+    """Return whether most nodes on a crack within a domain have touching sides, or K_I is negative.
+
+    place: centre of the domain now (m); faces that ignore each other are never closed
+    """
+    if model.contact.kind[crack] == IGNORE:
+        return False
+    if model.contact.kind[crack] == GLUED or K_I < 0.0:  # faces can not overlap
+        return True
+    rows, lattice = scratch.rows, model.lattice
+    n = int(rows.count[0])
+    along_x = lattice.nodes[0]
+    node = rows.node[:n]
+    at = np.stack([node % along_x, node // along_x], axis=1) * lattice.width + np.array(
+        lattice.lower
+    )
+    near = np.sum((at - place) ** 2, axis=1) < radius**2
+    mine = (rows.crack[:n, 0] == crack) & near
+    if not mine.any():
+        return False
+    return bool(np.mean(rows.touching[:n, 0][mine] != OPEN) > 0.5)
