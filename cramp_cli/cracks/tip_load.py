@@ -78,7 +78,7 @@ def _own_load(model, state, scratch, tip, site, kink):
     radius = min(wanted, kink, room)
     least = (1.0 - 1e-9) * min(SMALLEST * width, kink)
     while radius >= least:
-        J, K_I, K_II, spoiled, mixed = domain_values(model, site, radius)
+        J, K_I, K_II, spoiled, mixed, _ = domain_values(model, site, radius)
         if not spoiled:
             inner = inner_radius(radius, width)
             held = drawn(model, state, tip, site.frame, inner, radius)

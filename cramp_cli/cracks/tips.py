@@ -29,6 +29,7 @@ class Fracture:
     cells: int = 2  # half size of the contour
     terms: int = 1  # 2: with the area integral of the inertia
     obstacles: tuple = ()  # of Obstacle
+    means: bool = False  # means over the time a wave takes through the domain stand in the rows
 
 
 @dataclass(frozen=True)

@@ -156,10 +156,10 @@ LAYERED = inner((0, 10), (12, 10), start="edge")  # its tip is 3 cells before th
 
 @pytest.mark.parametrize(("materials", "contour", "word"), [
     (("soft", "twin"), 2, "ok"),
-    (("soft", "hard"), 2, "shrunk: another material within 5 cells"),
+    (("soft", "hard"), 2, "corrected: the domain holds another material"),
     (("soft", "heavy"), 3, "ok"),
     (("heavy", "soft"), 3, "ok"),
-    (("soft", "hard"), 3, "shrunk: another material within 5 cells; "
+    (("soft", "hard"), 3, "corrected: the domain holds another material; "
      "contour invalid: another material lies within the contour"),
 ])  # fmt: skip
 def test_materials_are_told_apart_by_their_law(materials, contour, word):
