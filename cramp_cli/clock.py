@@ -10,6 +10,11 @@ class Due:
     def __init__(self, every: float, dt: float):
         self.every, self.slack, self.count = every, 1e-9 * dt, 0
 
+    @property
+    def next(self) -> float:
+        """The next multiple of `every` (s)."""
+        return self.count * self.every
+
     def __call__(self, time: float) -> bool:
         """Return True at the first step at or after the next multiple of `every`."""
         if time < self.count * self.every - self.slack:

@@ -12,6 +12,7 @@ from cramp_cli.cracks.cohesion import parted_points, tractions_now
 from cramp_cli.cracks.fields import find_rows, list_cracks
 from cramp_cli.cracks.grow import blind_tips, grow
 from cramp_cli.cracks.straight_path import UNSTABLE, with_past
+from cramp_cli.cracks.tip_mean import TipMeans
 from cramp_cli.cracks.tips import sample_tips
 from cramp_cli.energy_balance import Balance
 from cramp_cli.numerics.call import records_of_one_run
@@ -90,6 +91,7 @@ class _Run:
         self.history_due = Due(deck.output.history_every, model.dt)
         self.tips_due = Due(deck.fracture.every, model.dt)
         self.frame_due = Due(deck.output.every, model.dt)
+        self.means = TipMeans(model) if model.fracture.means else None
         self.tips, self.written = [], set()
         self.told, self.remarks_told = set(), 0
         list_cracks(model, state, self.scratch)
@@ -122,6 +124,9 @@ class _Run:
             self._tell_short_domains()
             self._tell_lost_faces()
         self.settling.look(self.model, self.state, self.scratch)
+        if self.means:
+            next_row = min(self.tips_due.next, self.model.end_time)
+            self.means.after_step(self.model, self.state, self.scratch, next_row)
         self._write(self.history_due, self.tips_due, self.frame_due)
         if self.keeper:
             self.keeper.after_step(self.state, self.remember)
@@ -149,6 +154,7 @@ class _Run:
             "written": sorted(self.written),
             "told": sorted(self.told),
             "remarks_told": self.remarks_told,
+            "means": self.means.samples if self.means else None,
         }
 
     def recall(self, remembered) -> None:
@@ -160,6 +166,8 @@ class _Run:
         self.tips, self.told = remembered["tips"], set(remembered["told"])
         self.remarks_told = remembered["remarks_told"]
         self.written = {tuple(key) for key in remembered["written"]}
+        if self.means:
+            self.means.samples = remembered["means"]
 
     def first_step_took(self, seconds: float) -> float:
         """Say how long it took to begin, and time the steps anew from here."""
@@ -196,6 +204,8 @@ class _Run:
             self.balance.judge(self.state, self.reporter)
         if self.model.crack_names and tips_due(time) and self._first("tips"):
             rows = sample_tips(self.model, self.state, self.scratch)
+            if self.means:
+                rows = self.means.of_rows(self.model, self.state, self.scratch, rows)
             self.tips = with_past(self.settling.with_words(self.model, rows), self.told)
             self._tell_unstable_ways()
             self.outputs.tips(self.tips)

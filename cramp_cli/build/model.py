@@ -90,6 +90,7 @@ def build(deck: Deck) -> tuple[Model, State]:
             cells=settings.contour.cells,
             terms=settings.contour.terms,
             obstacles=obstacles,
+            means=settings.means,
         ),
         cohesion=build_cohesion(deck, paths),
         events=tuple(events.events),

@@ -15,6 +15,9 @@ from cramp_cli.cracks.second_material import add_difference
 from cramp_cli.materials.geometry import Axisymmetric, depth, is_plane_stress
 from cramp_cli.materials.law import poisson_ratio, same_law, shear_modulus
 
+USUAL, SMALLEST = 5.0, 2.5  # radius of the domain in cells, and the least that gives a number
+REACH = 8.0  # cells around a tip or the corner of a kink that an integral can want
+SPREAD = (0.8, 1.2)  # further radii that are compared, in shares of the radius
 BARE = 0.5  # a particle of another material nearer to the tip than this leaves no K (cells)
 LEAK = 0.02  # part of the domain that may be empty: particles are a coarse quadrature
 
@@ -27,6 +30,7 @@ class Values(NamedTuple):
     K_II: float  # Pa sqrt(m)
     spoiled: str  # what spoils the domain; empty if nothing does
     mixed: bool  # it holds a second material
+    corrected: bool  # a particle at least of another material counts, for which K is corrected
 
 
 def domain_values(model, site, radius, inner=None) -> Values:
@@ -35,7 +39,7 @@ def domain_values(model, site, radius, inner=None) -> Values:
     inner: radius (m) within which the weight is 1; chosen if not given
     """
     inner = inner_radius(radius, model.lattice.width) if inner is None else inner
-    sums, own, known = _sum_parts(model, site, inner, radius)
+    sums, own, touched, known = _sum_parts(model, site, inner, radius)
     per_length = (2.0 if site.half else 1.0) / depth(model.geometry, site.frame.origin[0])
     J, K_I, K_II, filled = (per_length * sums).tolist()
     K_II = 0.0 if site.half else K_II
@@ -51,15 +55,17 @@ def domain_values(model, site, radius, inner=None) -> Values:
         spoiled = "another material"
     if mixed and not spoiled:
         J = (K_I**2 + K_II**2) / site.hooke.stiffness
-    return Values(J, K_I, K_II, spoiled, mixed)
+    return Values(J, K_I, K_II, spoiled, mixed, touched and known and not rings)
 
 
 def _sum_parts(model, site, inner, radius):
     """Return the integrals over all materials, how full the domain is of that at the tip.
 
-    Last: whether K can be found beside the others, isotropic and not at the tip itself.
+    Last: whether there are others, and whether K can be found beside them, isotropic and not at the
+    tip itself.
     """
-    sums, own, known, particles = np.zeros(4), 0.0, True, site.cloud.particles
+    sums, own, touched, known = np.zeros(4), 0.0, False, True
+    particles = site.cloud.particles
     for block, lo, hi in site.cloud.parts:
         where = (inner, radius, lo, hi)
         part = integrate_domain(particles, site.frame, site.hooke, site.gravity, *where)
@@ -69,11 +75,11 @@ def _sum_parts(model, site, inner, radius):
         if same_law(block.law, site.block.law):
             own += part[3]
         elif part[3] > 0.0:
-            other = hooke_of(block.law, model.geometry)
+            touched, other = True, hooke_of(block.law, model.geometry)
             known = known and not np.isnan(other.shear) and _is_clear(model, site, lo, hi)
             if known:
                 sums[1:3] += add_difference(particles, site.frame, site.hooke, other, *where)
-    return sums, own, known
+    return sums, own, touched, known
 
 
 def _is_clear(model, site, lo, hi) -> bool:

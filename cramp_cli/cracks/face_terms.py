@@ -43,11 +43,8 @@ def rubbed_off(model, site, crack, inner, radius) -> float:
     return _singular_integral(np.array([0.0, radius]), np.array([stress]), inner, radius)
 
 
-def drawn(model, state, tip, now, inner, radius) -> np.ndarray:
-    """Return what traction laws add to the sums for J, K_I and K_II of a tip.
-
-    now: unit vector out of the crack at the tip, in the body of now
-    """
+def drawn(model, state, tip, frame, inner, radius) -> np.ndarray:
+    """Return what traction laws add to the sums for J, K_I and K_II of a tip, seen in its frame."""
     if model.cohesion is None:
         return np.zeros(3)
     way, step, traction = _pieces(model, state, tip)
@@ -55,8 +52,11 @@ def drawn(model, state, tip, now, inner, radius) -> np.ndarray:
     q = np.zeros(len(middle))
     fill_weights(q, middle, inner, radius)
     J = float(q @ np.sum(traction * step, axis=1))
-    (ex, ey), side = now, 2 * tip.end - 1
-    normal, along = side * (traction @ (-ey, ex)), side * (traction @ (ex, ey))
+    (ex, ey), side = frame.now, 2 * tip.end - 1
+    c, s = np.cos(frame.bend * middle), -np.sin(frame.bend * middle)  # the way goes back
+    ahead = np.stack([c * ex - s * ey, s * ex + c * ey], axis=1)
+    along = side * np.sum(traction * ahead, axis=1)
+    normal = side * (traction[:, 1] * ahead[:, 0] - traction[:, 0] * ahead[:, 1])
     return np.array(
         [J, *(_singular_integral(way, stress, inner, radius) for stress in (normal, along))]
     )

@@ -74,7 +74,7 @@ def _rows_fit(scratch, state, model) -> bool:
         scratch.grid, larger = make_grid(lattice.node_count, len(strides), 2 * int(rows.count[0]))
         scratch.rows = larger._replace(lowest=rows.lowest, highest=rows.highest)
         return False
-    pair_sectors(rows, segments, lattice.width, lattice.lower, strides)
+    pair_sectors(rows, scratch.segments, lattice.width, lattice.lower, strides)
     return True
 
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from cramp_cli.cracks.criteria.directions import GIVEN, OWN, turn_by, turned
 from cramp_cli.cracks.criteria.load import Load
+from cramp_cli.cracks.domain import USUAL
 from cramp_cli.cracks.extend import add_point, cover_end, end_point, make_room, move_end
 from cramp_cli.cracks.intensity import open_and_slide, opening_near_tip
 from cramp_cli.cracks.interface import choose_course
@@ -20,7 +21,7 @@ from cramp_cli.cracks.overlap import is_shut
 from cramp_cli.cracks.sinks import lose, lose_the_rest, spread_over_way
 from cramp_cli.cracks.speed import Pull
 from cramp_cli.cracks.tip_load import LONG, line_of, load_on
-from cramp_cli.cracks.tips import USUAL, Tip, crack_length, tips_of
+from cramp_cli.cracks.tips import Tip, crack_length, tips_of
 from cramp_cli.state.growth import BLIND, HELD
 from cramp_cli.state.paths import EDGE, PLAIN, TIP
 

@@ -38,11 +38,11 @@ def integrate_flux(particles, frame, gravity, drift, R0, R1, lo, hi):
     volume, mass, a = particles.volume, particles.mass, particles.acceleration
     J = 0.0
     for p in range(lo, hi):
-        _, _, q, qx, qy = seen_from_tip(X, frame, p, R0, R1)
+        _, _, q, qx, qy, _, axes = seen_from_tip(X, frame, p, R0, R1)
         if q == 0.0:
             continue
         V, rho = volume[p], mass[p] / volume[p]
-        _, (pxx, pxy, pyx, pyy), f = local_state(particles, frame, p)
+        _, (pxx, pxy, pyx, pyy), f = local_state(particles, axes, p)
         hxx, hyx = f[0] - 1.0, f[2]
         ax, ay = local_vector(frame.now, a[p, 0] - gravity[0], a[p, 1] - gravity[1])
         vx, vy = local_vector(frame.now, v[p, 0] - drift[0], v[p, 1] - drift[1])

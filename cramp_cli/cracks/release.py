@@ -9,10 +9,10 @@ docs/theory/growth.md).
 
 from math import sqrt
 
+from cramp_cli.cracks.domain import USUAL
 from cramp_cli.cracks.domain_integral import inner_radius, weight
 from cramp_cli.cracks.followers import sides_beside_tip
 from cramp_cli.cracks.tip_nodes import FAR, along_crack
-from cramp_cli.cracks.tips import USUAL
 from cramp_cli.numerics.kernel import kernel
 from cramp_cli.state.growth import running_tips
 

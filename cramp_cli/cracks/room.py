@@ -7,8 +7,6 @@ import numpy as np
 from cramp_cli.state.particles import is_deleted
 from cramp_cli.state.paths import TIP
 
-BEND = 0.17  # a crack that turns by more than this (rad) ends the domain
-
 
 class Obstacle(NamedTuple):
     """Places that no domain may hold: loads, held boundaries, symmetry planes."""
@@ -18,7 +16,7 @@ class Obstacle(NamedTuple):
     crack: int = -1  # the crack for which it is none: the one that lies on this symmetry plane
 
 
-def find_room(model, paths, tip, here, bend=BEND) -> tuple[float, str]:
+def find_room(model, paths, tip, here, bend) -> tuple[float, str]:
     """Return the distance (m) from a tip to what is nearest and spoils its domain, and what it is.
 
     here: the tip in the undeformed body (m); bend: turn (rad) of the crack itself that does

@@ -10,8 +10,9 @@ I += sum V { tau_ij (S_tip - S)_ijkl (s_kl q_,1 + s_kl,1 q) },  s the auxiliary 
 the first part because the strain of a particle is S tau and not S_tip tau.
 """
 
+from cramp_cli.cracks.curved import stress_slope_along
 from cramp_cli.cracks.domain_integral import local_stress, seen_from_tip
-from cramp_cli.cracks.williams import unit_stress, unit_stress_slope
+from cramp_cli.cracks.williams import unit_stress
 from cramp_cli.numerics.kernel import kernel
 
 
@@ -31,12 +32,13 @@ def add_difference(particles, frame, tip, other, R0, R1, lo, hi):
     X, stress, volume = particles.origin, particles.stress, particles.volume
     I1, I2 = 0.0, 0.0
     for p in range(lo, hi):
-        r, angle, q, qx, _ = seen_from_tip(X, frame, p, R0, R1)
+        r, angle, q, qx, _, y, axes = seen_from_tip(X, frame, p, R0, R1)
         if q == 0.0:
             continue
-        tau = local_stress(frame.now, stress, p)
+        tau = local_stress(axes[1], stress, p)
         for mode in (1, 2):
-            s, ds = unit_stress(mode, r, angle), unit_stress_slope(mode, r, angle)
+            s = unit_stress(mode, r, angle)
+            ds = stress_slope_along(mode, r, angle, frame.bend, y)
             falling = (compliance(tip, tau, s) - compliance(other, tau, s)) * qx
             within = (compliance(tip, tau, ds) - compliance(other, tau, ds)) * q
             if mode == 1:

@@ -12,21 +12,17 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from cramp_cli.cracks.domain import domain_values
+from cramp_cli.cracks.domain import SMALLEST, USUAL, domain_values
 from cramp_cli.cracks.domain_integral import inner_radius
 from cramp_cli.cracks.face_terms import drawn, rubbed_off
 from cramp_cli.cracks.kink import LARGEST, kinked
 from cramp_cli.cracks.moving_tip import integrate_flux, mean_velocity
 from cramp_cli.cracks.rayleigh import rayleigh_speed, release_factors, wave_speeds
 from cramp_cli.cracks.room import find_room
+from cramp_cli.cracks.site import site_at
 from cramp_cli.cracks.speed import ALMOST
-from cramp_cli.cracks.tips import (
-    SMALLEST,
-    USUAL,
-    Tip,
-    is_closed,
-    site_at,
-)
+from cramp_cli.cracks.tip_domain import is_closed
+from cramp_cli.cracks.tips import Tip
 from cramp_cli.state.growth import BLEND, BLIND, HELD, KINK, MIXED, OWN
 
 SHORT, LONG = 2.0, 3.0  # lengths of a kink between which its own domain takes over (cells)
@@ -82,10 +78,10 @@ def _own_load(model, state, scratch, tip, site, kink):
     radius = min(wanted, kink, room)
     least = (1.0 - 1e-9) * min(SMALLEST * width, kink)
     while radius >= least:
-        J, K_I, K_II, spoiled, mixed = domain_values(model, site, radius)
+        J, K_I, K_II, spoiled, mixed, _ = domain_values(model, site, radius)
         if not spoiled:
-            inner, now = inner_radius(radius, width), site.frame.now
-            held = drawn(model, state, tip, now, inner, radius)
+            inner = inner_radius(radius, width)
+            held = drawn(model, state, tip, site.frame, inner, radius)
             J, K_I, K_II = (np.array([J, K_I, K_II]) - held).tolist()
             here = state.paths.point[tip.points[0]]
             if is_closed(model, scratch, tip.crack, here, radius, K_I):

@@ -41,6 +41,41 @@ def unit_slope(mode, r, angle, shear, kappa):
 
 
 @kernel
+def unit_displacement(mode, r, angle, shear, kappa):
+    """Return u_x and u_y for a unit intensity, sqrt(m)/Pa: none at the tip.
+
+    Kolosov: 2 mu (u + iv) = kappa phi - z conj(phi') - conj(psi) with phi = 2 a sqrt(z) and psi =
+    (2 conj(a) - a) sqrt(z); a = 1/(2 sqrt(2 pi)) in mode I, -i times that in mode II.
+    """
+    f, half = sqrt(r / (2.0 * pi)) / (4.0 * shear), 0.5 * angle
+    c, s, c3, s3 = cos(half), sin(half), cos(3.0 * half), sin(3.0 * half)
+    if mode == 1:
+        return f * ((2.0 * kappa - 1.0) * c - c3), f * ((2.0 * kappa + 1.0) * s - s3)
+    return f * ((2.0 * kappa + 3.0) * s + s3), f * ((3.0 - 2.0 * kappa) * c - c3)
+
+
+@kernel
+def unit_slope_across(mode, r, angle, shear, kappa):
+    """Return du_x/dy and du_y/dy for a unit intensity, 1/(Pa sqrt(m))."""
+    f, half = 1.0 / (sqrt(2.0 * pi * r) * 4.0 * shear), 0.5 * angle
+    c, s, c5, s5 = cos(half), sin(half), cos(5.0 * half), sin(5.0 * half)
+    if mode == 1:
+        return f * ((kappa + 0.5) * s + 0.5 * s5), f * ((kappa - 0.5) * c - 0.5 * c5)
+    return f * ((kappa + 2.5) * c + 0.5 * c5), f * ((2.5 - kappa) * s + 0.5 * s5)
+
+
+@kernel
+def unit_slope_change(mode, r, angle, shear, kappa):
+    """Return the second derivatives of u_x and u_y along x for a unit intensity, 1/(Pa m^1.5)."""
+    f, half = 1.0 / (sqrt(2.0 * pi * r) * r * 4.0 * shear), 0.5 * angle
+    c3, s3, c7, s7 = cos(3.0 * half), sin(3.0 * half), cos(7.0 * half), sin(7.0 * half)
+    k = 0.5 * kappa
+    if mode == 1:
+        return f * ((1.25 - k) * c3 - 0.75 * c7), f * ((1.25 + k) * s3 - 0.75 * s7)
+    return f * ((k - 0.25) * s3 + 0.75 * s7), f * ((k + 0.25) * c3 - 0.75 * c7)
+
+
+@kernel
 def unit_stress_slope(mode, r, angle):
     """Return the derivatives along x of `unit_stress` (1/m^1.5).
 

@@ -185,6 +185,11 @@ class FractureSection(Section):
         None, description="one radius or a list for the domain; chosen if not given"
     )
     contour: ContourSection = Field(default_factory=ContourSection, description="the contour")
+    means: bool = Field(
+        False,
+        description="J_mean, K_I_mean, K_II_mean as well: means over the time that a wave takes "
+        "through the domain, for loads that are waves",
+    )
 
     def wrong_values(self) -> Iterator[Wrong]:
         """Radii are positive, methods differ."""

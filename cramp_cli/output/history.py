@@ -61,10 +61,21 @@ CRACK_COLUMNS = {
     "J_contour": ("J/m^2", "J integral over a contour on grid lines"),
     "K_I_contour": ("Pa*m^0.5", "K_I from J_contour and the opening of the faces"),
     "K_II_contour": ("Pa*m^0.5", "K_II from J_contour and the opening of the faces"),
-    "J_spread": ("1", "largest less smallest J of several domains, over J"),
+    "J_spread": (
+        "1",
+        "largest less smallest J of domains of several radii, over J: whether J depends on the "
+        "radius; no bound of the error, which may be ten times as large in waves",
+    ),
     "J_tip": ("J/m^2", "energy release rate of the tip alone"),
     "J_zone": ("J/m^2", "energy release rate that a cohesive zone behind the tip takes"),
     "status": ("", "ok, shrunk, closed, or invalid and why"),
+}
+# with fracture.means; each belongs to time_mean, not to time
+MEAN_COLUMNS = {
+    "J_mean": ("J/m^2", "mean of J over the time that a wave takes through the domain"),
+    "K_I_mean": ("Pa*m^0.5", "mean of K_I over that time"),
+    "K_II_mean": ("Pa*m^0.5", "mean of K_II over that time"),
+    "time_mean": ("s", "middle of the time of these means, to which they belong"),
 }
 
 GROWTH_COLUMNS = {
@@ -163,7 +174,7 @@ def write_columns(folder: Path, history: dict[str, tuple[str, str]]) -> None:
     """Write columns.json: unit and meaning of every column of every table."""
     tables = {
         "history.csv": history,
-        "cracks.csv": CRACK_COLUMNS,
+        "cracks.csv": CRACK_COLUMNS | MEAN_COLUMNS,
         "growth.csv": GROWTH_COLUMNS,
         "path.csv": PATH_COLUMNS,
     }

@@ -17,6 +17,7 @@ from cramp_cli.output.history import (
     CRACK_COLUMNS,
     GROWTH_COLUMNS,
     HISTORY_COLUMNS,
+    MEAN_COLUMNS,
     PATH_COLUMNS,
     CsvTable,
     cut_tables,
@@ -86,10 +87,11 @@ class RunOutputs:
         self._status.update(**{k: row[k] for k in ("step", "time", "energy_error") if k in row})
 
     def tips(self, rows: Iterable[dict]) -> None:
-        """Append one row per tip to cracks.csv; keys as in CRACK_COLUMNS."""
+        """Append one row per tip to cracks.csv; keys as in CRACK_COLUMNS, MEAN_COLUMNS."""
         rows = list(rows)
         for row in rows:
-            self._table("cracks", CRACK_COLUMNS).write(row)
+            columns = CRACK_COLUMNS | (MEAN_COLUMNS if MEAN_COLUMNS.keys() <= row.keys() else {})
+            self._table("cracks", columns).write(row)
         shown = [{name: row[name] for name in SHOWN_OF_A_TIP if name in row} for row in rows]
         self._status.update(tips=shown)
 

@@ -10,7 +10,7 @@ import numpy as np
 from cramp_cli.deck.sweep import Reduction, Study
 from cramp_cli.output.atomic import replaced, write_text
 from cramp_cli.output.exits import FolderError
-from cramp_cli.output.history import CRACK_COLUMNS, GROWTH_COLUMNS, HISTORY_COLUMNS
+from cramp_cli.output.history import CRACK_COLUMNS, GROWTH_COLUMNS, HISTORY_COLUMNS, MEAN_COLUMNS
 from cramp_cli.schema.mistake import DeckError
 from cramp_cli.schema.section import unknown
 from cramp_cli.schema.unit_text import UnitError, base_units, split
@@ -21,7 +21,8 @@ from cramp_cli.study.results import WORDS, Columns, by_tip, read_table
 
 Row = dict[str, object]
 STATUS = "status"  # of a tip: what those rows say from which its numbers are
-TABLES = {"cracks": CRACK_COLUMNS, "history": HISTORY_COLUMNS, "growth": GROWTH_COLUMNS}
+OF_TIPS = CRACK_COLUMNS | MEAN_COLUMNS
+TABLES = {"cracks": OF_TIPS, "history": HISTORY_COLUMNS, "growth": GROWTH_COLUMNS}
 
 
 def check_columns(study: Study) -> None:
@@ -38,7 +39,7 @@ def check_columns(study: Study) -> None:
 
 def table_of(one: Reduction) -> str:
     """Return the table of a reduction: cracks if it has the column, else history."""
-    return one.table or ("cracks" if one.column in CRACK_COLUMNS else "history")
+    return one.table or ("cracks" if one.column in OF_TIPS else "history")
 
 
 def collect(

@@ -9,7 +9,13 @@ import numpy as np
 from cramp_cli.output.exits import FolderError
 from cramp_cli.output.fields import Frame, read_frames
 from cramp_cli.output.folder import is_run_folder
-from cramp_cli.output.history import CRACK_COLUMNS, GROWTH_COLUMNS, HISTORY_COLUMNS, named_column
+from cramp_cli.output.history import (
+    CRACK_COLUMNS,
+    GROWTH_COLUMNS,
+    HISTORY_COLUMNS,
+    MEAN_COLUMNS,
+    named_column,
+)
 
 Columns = dict[str, np.ndarray]  # name: (rows,), numbers as float, words as text
 
@@ -58,7 +64,7 @@ def by_tip(table: Columns) -> dict[str, Columns]:
 
 def unit_of(column: str) -> str:
     """Return the SI unit of a column of history.csv, cracks.csv or growth.csv."""
-    known = CRACK_COLUMNS | HISTORY_COLUMNS | GROWTH_COLUMNS
+    known = CRACK_COLUMNS | MEAN_COLUMNS | HISTORY_COLUMNS | GROWTH_COLUMNS
     return known.get(column, named_column(column) or ("1", ""))[0]
 
 

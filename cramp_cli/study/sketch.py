@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from cramp_cli.cracks.tips import USUAL
+from cramp_cli.cracks.domain import USUAL
 from cramp_cli.deck.deck import Deck
 from cramp_cli.study.figures import BLACK, BLUE, GREEN, GREY, PURPLE, RED
 from cramp_cli.study.outlines import exteriors, region_of, solid_outlines

@@ -82,7 +82,7 @@ def _of_tip(tip: str, rows: Columns) -> Iterator[Verdict]:
         yield Verdict(mark, f"{tip}: do two integrals agree?", text)
     if np.isfinite(spread):
         mark = "good" if spread < CLOSE else "look"
-        text = f"J of domains of several radii differs by {100 * spread:.2g} %"
+        text = f"J of several radii differs by {100 * spread:.2g} %, which is no bound of its error"
         yield Verdict(mark, f"{tip}: does J depend on the domain?", text)
 
 

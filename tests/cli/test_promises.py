@@ -93,6 +93,18 @@ def test_1_every_update_can_be_run_in_pieces(here, update):
     assert differences(whole, pieces) == []
 
 
+def test_1_means_over_time_go_on_where_they_were(here):
+    """Stops within the time of a mean, and just before a row of the table."""
+    options = {"overrides": ["fracture.means=true", "fracture.every=2 us"]}
+    options["checkpoint_every"] = 1, None
+    whole = run_in_pieces(here / "plate.yaml", here / "whole", **options)
+    pieces = run_in_pieces(here / "plate.yaml", here / "pieces", (29, 33, 60), **options)
+    assert differences(whole, pieces) == []
+    with (whole / "cracks.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert any(float(row["K_I_mean"]) != float(row["K_I"]) for row in rows)
+
+
 def test_1_all_that_the_loop_over_time_holds_is_kept_or_follows_from_the_state():
     """A new attribute of the loop belongs into `remember`, or into the list here."""
     model, state, _ = build_deck(PLATE)

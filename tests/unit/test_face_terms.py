@@ -10,7 +10,7 @@ from cramp_cli.cohesive.elastic import Elastic
 from cramp_cli.cohesive.modes import Modes
 from cramp_cli.cracks.cohesion import Cohesion
 from cramp_cli.cracks.contact import FRICTIONAL, STICK
-from cramp_cli.cracks.domain_integral import inner_radius, integrate_domain
+from cramp_cli.cracks.domain_integral import TipFrame, inner_radius, integrate_domain
 from cramp_cli.cracks.face_terms import drawn, rubbed_off, zone_energy
 from cramp_cli.cracks.tips import tips_of
 from cramp_cli.state.paths import TIP, make_paths
@@ -18,6 +18,11 @@ from cramp_cli.state.paths import TIP, make_paths
 INNER = inner_radius(R1, CELL)
 STIFF = 5.0  # Pa/m
 TAU, PRESSURE = 1e-9 * SHEAR, 2e-9 * SHEAR
+
+
+def frame_of(tip, state):
+    axis = tip.direction(state.paths.point)
+    return TipFrame(tuple(state.paths.point[tip.points[0]]), axis, axis)
 
 
 def uniform(shear, pressure):
@@ -76,7 +81,7 @@ def test_springs_take_as_much_of_K_as_rubbing_of_the_same_stress(end):
     """Opening and sliding of the upper face along +x load both tips with K_I, K_II > 0."""
     model_, state = springs(3e-9, 2e-9)
     tip = tips_of(state.paths)[end]
-    _, opened, slid = drawn(model_, state, tip, tip.direction(state.paths.point), INNER, R1)
+    _, opened, slid = drawn(model_, state, tip, frame_of(tip, state), INNER, R1)
     as_rubbed = added(STICK, shear=TAU) / TAU
     assert opened == pytest.approx(STIFF * 3e-9 * as_rubbed, rel=1e-3)
     assert slid == pytest.approx(2.0 * STIFF * 2e-9 * as_rubbed, rel=1e-3)

@@ -12,7 +12,8 @@ from support import build_deck
 from cramp_cli.cracks.criteria.load import Load
 from cramp_cli.cracks.interface import CLEAR, choose_course
 from cramp_cli.cracks.kink import kinked
-from cramp_cli.cracks.tips import site_of, tips_of
+from cramp_cli.cracks.site import site_of
+from cramp_cli.cracks.tips import tips_of
 
 DECK = """
 cramp: 1

@@ -7,13 +7,8 @@ from support import advance, build_deck, locate
 from cramp_cli.cracks.cloud import cloud_around
 from cramp_cli.cracks.domain import hooke_of
 from cramp_cli.cracks.doubts import doubts
-from cramp_cli.cracks.tips import (
-    block_at,
-    crack_length,
-    sample_tips,
-    site_of,
-    tips_of,
-)
+from cramp_cli.cracks.site import block_at, site_of
+from cramp_cli.cracks.tips import crack_length, sample_tips, tips_of
 from cramp_cli.transfer.sums import sort_particles
 
 PLATE = """
@@ -153,7 +148,7 @@ def test_radii_to_compare_keep_away_from_obstacles():
 
 def test_a_tip_near_another_crack_has_no_room():
     rows = sampled(inner((0, 10), (14.8, 10), start="edge"), inner((15, 5), (15, 15)))
-    assert rows["c0", "end"]["status"].startswith("invalid: crack c1 is nearer than 5 cells")
+    assert rows["c0", "end"]["status"].startswith("invalid: crack c1 is nearer than 2.5 cells")
 
 
 def test_an_end_on_another_crack_is_no_tip():
@@ -166,10 +161,10 @@ LAYERED = inner((0, 10), (12, 10), start="edge")  # its tip is 3 cells before th
 
 @pytest.mark.parametrize(("materials", "contour", "word"), [
     (("soft", "twin"), 2, "ok"),
-    (("soft", "hard"), 2, "shrunk: another material within 5 cells"),
+    (("soft", "hard"), 2, "corrected: the domain holds another material"),
     (("soft", "heavy"), 3, "ok"),
     (("heavy", "soft"), 3, "ok"),
-    (("soft", "hard"), 3, "shrunk: another material within 5 cells; "
+    (("soft", "hard"), 3, "corrected: the domain holds another material; "
      "contour invalid: another material lies within the contour"),
 ])  # fmt: skip
 def test_materials_are_told_apart_by_their_law(materials, contour, word):

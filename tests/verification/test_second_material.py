@@ -5,7 +5,8 @@ import pytest
 from support import advance, build_deck
 
 from cramp_cli.cracks.domain import domain_values
-from cramp_cli.cracks.tips import site_of, tips_of
+from cramp_cli.cracks.site import site_of
+from cramp_cli.cracks.tips import tips_of
 from cramp_cli.cracks.williams import unit_stress, unit_stress_slope
 
 pytestmark = pytest.mark.verification
