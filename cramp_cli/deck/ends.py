@@ -13,7 +13,7 @@ from cramp_cli.deck.contact_groups import group_of_crack, groups_of_bodies
 from cramp_cli.schema.section import Wrong
 
 MEETS = 0.1  # cells; an end this near to another crack lies on it
-SURFACE = 0.25  # cells; a ligament shorter than this is none
+SURFACE = 0.5  # cells; a ligament shorter than this is none
 AT = 0.1  # cells; a `tip` nearer to the surface than this is at it
 BESIDE = 0.5  # cells beside a symmetry plane; there a crack in the plane is looked at
 KEYS = (("start", 0, 1), ("end", -1, -2))  # key, place of the end in the line, of the one before
