@@ -23,6 +23,7 @@ from cramp_cli.deck.loads import AnyLoad
 from cramp_cli.deck.materials import AnyMaterial
 from cramp_cli.deck.overrides import apply_overrides
 from cramp_cli.deck.parts import parts_of, salvage
+from cramp_cli.deck.plausible import plausible_warnings
 from cramp_cli.deck.propagation import InterfaceSection, PropagationSection
 from cramp_cli.deck.ring_checks import ring_mistakes
 from cramp_cli.deck.run import FractureSection, OutputSection, SolverSection
@@ -159,7 +160,7 @@ def check_deck(source: Source, folder: Path) -> Deck:
         raise DeckError(found)
     deck = _filled(deck)
     deck._source, deck._folder, deck._numbers = source, folder, numbers
-    deck._warnings = [source.mistake(*one) for one in _warnings(deck)]
+    deck._warnings = [source.mistake(*as_written(one, numbers)) for one in _warnings(deck)]
     return deck
 
 
@@ -185,6 +186,7 @@ def _filled(deck: Deck) -> Deck:
 def _warnings(deck: Deck) -> Iterator[Wrong]:
     yield from crack_warnings(parts_of(deck))
     yield from ligament_warnings(parts_of(deck))
+    yield from plausible_warnings(deck)
     if deck.solver.may_be_unstable:
         better = deck.solver.strain.replace("-", "+")
         message = f"may grow without bound with {deck.solver.update}; use '{better}'"
