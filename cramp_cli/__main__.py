@@ -29,6 +29,10 @@ def main(words: list[str] | None = None) -> int:
 
 
 def _obey(words: list[str], settings: Settings) -> int:
+    if not {"--help", "--version"} & set(words):
+        from cramp_cli.output.machine import refuse_little_memory
+
+        refuse_little_memory()
     command = typer.main.get_command(app)
     try:
         with command.make_context("cramp", list(words), obj=settings) as context:

@@ -11,6 +11,7 @@ from cramp_cli.output.machine import choose_threads, human_bytes, refuse_too_big
 from cramp_cli.output.tables import facts_text
 
 LARGEST_BUILT = 3.3e8  # bytes that `check` may use: those of a million particles, two seconds
+FEWEST_STEPS = 20
 NOT_BUILT = "too large to be built by check; what a load or boundary does not meet, run will tell"
 
 
@@ -74,8 +75,22 @@ def _fitting_needs(deck, options: RunOptions) -> dict:
     from cramp_cli.build import estimate  # late: imports numba
 
     needs = estimate(deck)
+    refuse_too_few_steps(deck, needs)
     refuse_too_big(needs, *limits)
     return needs
+
+
+def refuse_too_few_steps(deck, needs: dict) -> None:
+    """Raise DeckError for a run of so few steps that no wave goes anywhere.
+
+    Mostly a modulus or a density without its unit makes the time step far too long.
+    """
+    from cramp_cli.deck.deck import DeckError
+
+    if needs.get("steps", FEWEST_STEPS) < FEWEST_STEPS:
+        message = f"is only {needs['steps']} time steps of {needs['time step']}"
+        remedy = f"a run needs {FEWEST_STEPS}: see the units of E, density and grid.cell"
+        raise DeckError([deck.mistake(("solver", "end_time"), f"{message}; {remedy}")])
 
 
 def _run(deck, options: RunOptions) -> None:
@@ -150,6 +165,7 @@ def check_deck(path: Path, overrides: Sequence[str], strict: bool, report: bool)
         from cramp_cli.build import build, estimate, filled  # late: imports numba
 
         needs = estimate(deck)
+        refuse_too_few_steps(deck, needs)
         if needs["memory_bytes"] > LARGEST_BUILT:
             answer["notes"].append(f"{path}: {NOT_BUILT}")
         else:

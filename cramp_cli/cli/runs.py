@@ -147,10 +147,10 @@ def resume(
     max_wall: MaxWall = None,
     checkpoint_every: CheckpointEvery = "10m",
 ):
-    """Go on with a run that was stopped, killed or failed; or finished, with a later --end-time.
+    """Go on with a run that was stopped, killed or failed.
 
-    Rows and frames behind the newest sound checkpoint are cut off: the files become those of a run
-    that was never interrupted.
+    With a later --end-time a finished run goes on too. Rows and frames behind the newest sound
+    checkpoint are cut off: the files become those of a run that was never interrupted.
     """
     from cramp_cli.commands import resume_folder
 

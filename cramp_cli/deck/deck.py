@@ -24,6 +24,7 @@ from cramp_cli.deck.loads import AnyLoad
 from cramp_cli.deck.materials import AnyMaterial
 from cramp_cli.deck.overrides import apply_overrides
 from cramp_cli.deck.parts import parts_of, salvage
+from cramp_cli.deck.plausible import plausible_warnings
 from cramp_cli.deck.propagation import InterfaceSection, PropagationSection
 from cramp_cli.deck.rest import rest_mistakes
 from cramp_cli.deck.ring_checks import ring_mistakes
@@ -164,7 +165,7 @@ def check_deck(source: Source, folder: Path) -> Deck:
         raise DeckError(found)
     deck = _filled(deck)
     deck._source, deck._folder, deck._numbers = source, folder, numbers
-    deck._warnings = [source.mistake(*one) for one in _warnings(deck)]
+    deck._warnings = [source.mistake(*as_written(one, numbers)) for one in _warnings(deck)]
     return deck
 
 
@@ -191,6 +192,7 @@ def _warnings(deck: Deck) -> Iterator[Wrong]:
     yield from crack_warnings(parts_of(deck))
     yield from ligament_warnings(parts_of(deck))
     yield from thin_warnings(deck)
+    yield from plausible_warnings(deck)
     if deck.solver.may_be_unstable:
         better = deck.solver.strain.replace("-", "+")
         message = f"may grow without bound with {deck.solver.update}; use '{better}'"

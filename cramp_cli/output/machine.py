@@ -12,6 +12,7 @@ from cramp_cli.output.exits import OutOfResources
 THREAD_VARIABLES = ("CRAMP_NUM_THREADS", "SLURM_CPUS_PER_TASK", "OMP_NUM_THREADS")
 LIBRARIES = ("numpy", "numba", "h5py", "meshio", "pydantic", "pyyaml", "scipy", "shapely", "pint")
 FACTORS = {"": 1, "K": 1000, "M": 1000**2, "G": 1000**3, "T": 1000**4, "P": 1000**5}
+LEAST_MEMORY = 1_000_000_000  # bytes: libraries take 0.4e9, compiling kernels as much again
 CGROUP = Path("/sys/fs/cgroup")
 
 
@@ -45,8 +46,8 @@ def usable_cpus() -> int:
 
 def available_memory() -> int | None:
     """Return the bytes this process can still take, or None where nobody tells."""
-    known = [size for size in (_memory_of_system(), _memory_of_group()) if size is not None]
-    return min(known, default=None)
+    sizes = (_memory_of_system(), _memory_of_group(), memory_of_limit())
+    return min((size for size in sizes if size is not None), default=None)
 
 
 def available_disk(path: Path) -> int:
@@ -135,6 +136,30 @@ def _memory_of_system() -> int | None:
         return None
     found = re.search(r"^MemAvailable:\s*(\d+) kB", text, re.MULTILINE)
     return int(found[1]) * 1024 if found else None
+
+
+def memory_of_limit() -> int | None:
+    """Return what `ulimit -v` leaves to this process, None without such a limit."""
+    try:
+        import resource
+
+        limit = resource.getrlimit(resource.RLIMIT_AS)[0]
+        pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0])
+    except (ImportError, OSError):
+        return None
+    return None if limit == resource.RLIM_INFINITY else limit - pages * resource.getpagesize()
+
+
+def refuse_little_memory() -> None:
+    """Raise OutOfResources where libraries could not even be loaded.
+
+    Some of them end the process, with a code of their own, when they get no memory.
+    """
+    left = memory_of_limit()
+    if left is not None and left < LEAST_MEMORY:
+        least = human_bytes(LEAST_MEMORY)
+        text = f"the memory limit (ulimit -v) leaves {human_bytes(max(left, 0))}"
+        raise OutOfResources(f"{text}; the libraries alone need about {least}")
 
 
 def _memory_of_group() -> int | None:

@@ -1,6 +1,8 @@
 """Threads, sizes, limits, exit codes."""
 
 import errno
+import subprocess
+import sys
 
 import pytest
 
@@ -113,3 +115,15 @@ def test_exit_codes_of_errors(error, code):
 
 def test_an_error_of_a_file_names_it():
     assert one_line(FileNotFoundError(2, "No such file", "a.yaml")) == "a.yaml: No such file"
+
+
+@pytest.mark.parametrize("megabytes", [100, 200, 300, 400, 700])
+def test_a_small_limit_of_memory_is_refused_before_a_library_dies_of_it(tmp_path, megabytes):
+    """OpenBLAS ends the process with 1, others say that a file is missing or an import failed."""
+    deck = tmp_path / "d.yaml"
+    deck.write_text("cramp: 1\n", encoding="utf-8")
+    program = f"{sys.executable} -m cramp_cli check {deck}"
+    words = ["bash", "-c", f"ulimit -v {megabytes}000 && exec {program}"]
+    done = subprocess.run(words, capture_output=True, text=True)
+    assert done.returncode == 5
+    assert "the memory limit (ulimit -v) leaves" in done.stderr
