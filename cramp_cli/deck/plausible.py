@@ -23,7 +23,7 @@ def plausible_warnings(deck: Any) -> Iterator[Wrong]:
         for key, message in _odd_material(material):
             yield ("materials", name, *key), message
     for key in ("grid", "particle"):
-        rate = getattr(deck.solver.damping, key)
+        rate = getattr(deck.solver.damping, key, 0.0)  # `auto` is no section
         if rate >= FASTEST:
             message = f"{rate:g} 1/s stops all motion within {1.0 / rate:.2g} s"
             yield ("solver", "damping", key), f"{message}; 1/ms or 1/s may be meant"

@@ -12,7 +12,7 @@ cramp: 1
 analysis: plane_stress
 grid: {cell: 1, lower: [-2, -2], upper: [12, 12]}
 materials:
-  glass: {law: elastic, density: 2500, E: 70, nu: 0.2}
+  glass: {law: elastic, density: 2500, E: 7.0e10, nu: 0.2}
 bodies:
   - {name: plate, material: glass, shape: {type: rectangle, lower: [0, 0], upper: [10, 10]}}
   - {name: hole, hole: true, shape: {type: disk, center: [5, 5], radius: 2}}
@@ -243,7 +243,7 @@ def test_one_mistake_of_an_override(tell, setting, found):
 
 
 def test_mistakes_of_the_deck_come_before_those_of_overrides(tell):
-    lines = tell(GOOD.replace("E: 70", "E: 0"), "solver.cfl=3", "thickness=-1")
+    lines = tell(GOOD.replace("E: 7.0e10", "E: 0"), "solver.cfl=3", "thickness=-1")
     assert lines == [
         "d.yaml:5:43: materials.glass.E: must be above 0 (got 0)",
         "-s solver.cfl=3: solver.cfl: must be at most 1 (got 3)",
