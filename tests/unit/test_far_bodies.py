@@ -18,7 +18,9 @@ DECK = {
     "materials": {name: {"law": "elastic", "density": 1.0, "E": 1.0, "nu": 0.3} for name in "amz"},
     "bodies": [PLATE],
     "cracks": [{"name": "c", "points": [[0, 5.6], [7.3, 6.1]], "start": "edge", "end": "tip"}],
-    "loads": [{"type": "traction", "body": "plate", "where": {"y": 12.0}, "traction": [1e-4, 1e-3]}],
+    "loads": [
+        {"type": "traction", "body": "plate", "where": {"y": 12.0}, "traction": [1e-4, 1e-3]}
+    ],
     "solver": {"end_time": 100.0, "strain": "usavg+"},
     "fracture": {"methods": ["domain", "contour"]},
 }
