@@ -76,14 +76,43 @@ def test_every_node_keeps_its_momentum(plate):
 
 
 def test_followers_lie_ahead_and_leads_behind(plate):
+    """Just behind the tip those follow, too, that hardly see the other side."""
     model, state, scratch = plate
     followers, leads, _ = used(scratch)
     tip, inner = state.paths.point[-1], state.paths.point[-2]
     out = (tip - inner) / np.hypot(*(tip - inner))
-    for rows, ahead in ((followers, True), (leads, False)):
-        node = rows.min(axis=1)
-        place = np.stack(np.divmod(node, model.strides[1])[::-1], axis=1) + model.lattice.lower
-        assert np.all(((place - tip) @ out > 1e-9) == ahead)
+    ahead, behind = (
+        (np.stack(np.divmod(rows.min(axis=1), model.strides[1])[::-1], axis=1) - tip) @ out
+        + model.lattice.lower @ out
+        for rows in (followers, leads)
+    )
+    far = scratch.grid.mass[followers].min(axis=1)
+    assert np.all((ahead > 1e-9) | ((ahead > -1.0) & (far < 0.05)))
+    assert np.all(behind <= 1e-9)
+    assert not set(followers.min(axis=1)) & set(leads.min(axis=1))
+
+
+@pytest.mark.parametrize("rise", [0.0, 1e-6, 0.01, 0.1, -1e-6, -0.1])
+def test_nodes_of_either_side_lead_where_the_crack_crosses_their_row(rise):
+    """The nodes of a row through the tip lie on one side behind it and on the other ahead of it."""
+    crack = {"name": "c", "points": [[0, 6.0 - rise], [8.4, 6.0]], "start": "edge", "end": "tip"}
+    model, state, scratch = build_deck(DECK, cracks=[crack])
+    locate(model, state, scratch)
+    sum_mass_and_momentum(model, state, scratch)
+    followers, leads, weights = used(scratch)
+    held = scratch.grid.mass[followers].min(axis=1) > 0.1  # they see both sides
+    assert held.sum() >= 2
+    assert np.all(weights[held].sum(axis=1) > 0.999)
+    for pairs in (followers, leads):
+        assert np.all(above(scratch, pairs[:, 0]))
+        assert not np.any(above(scratch, pairs[:, 1]))
+
+
+def above(scratch, row):
+    """Return whether rows hold the upper side of the crack."""
+    rows, nodes = scratch.rows, len(scratch.rows.first)
+    own = rows.tip_side[np.minimum(row, nodes - 1)] > 0
+    return np.where(row < nodes, own, rows.side[np.maximum(row - nodes, 0), 0] > 0)
 
 
 def test_work_is_the_same_from_both_sides(plate):
