@@ -71,10 +71,10 @@ def _contradictions(row, stiffness, noise) -> list[str]:
         off, larger = abs(one - other), max(abs(one), abs(other))
         if off > max(DIFFER * larger, noise):
             found.append(text.format(100.0 * off / larger))
-    return found + _of_mode(row, J, noise)
+    return found + of_mode(row, J, noise)
 
 
-def _of_mode(row, J, noise) -> list[str]:
+def of_mode(row, J, noise) -> list[str]:
     """The mode by the opening of the faces is not that of the domain."""
     by_faces = np.array([row["K_I_contour"], row["K_II_contour"]])
     by_domain = np.array([row["K_I"], row["K_II"]])
