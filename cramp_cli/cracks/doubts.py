@@ -17,6 +17,7 @@ from cramp_cli.state.particles import DISSIPATED
 
 AROUND = 5.0  # cells around a tip that are looked at
 DIFFER = 0.2  # share by which two numbers for one J may differ
+OTHER_MODE = 0.02  # share of K by which the mode by the opening may be off
 NOISE = 0.01  # share of the strain energy around the tip that is no J
 ROUND_OFF = 1e-12  # a strain that is none
 TAKEN = 0.01  # share of the work around the tip that plastic and viscous strain may have taken
@@ -84,7 +85,20 @@ def _contradictions(row, stiffness, noise) -> list[str]:
         off, larger = abs(one - other), max(abs(one), abs(other))
         if off > max(DIFFER * larger, noise):
             found.append(text.format(100.0 * off / larger))
-    return found
+    return found + of_mode(row, J, noise)
+
+
+def of_mode(row, J, noise) -> list[str]:
+    """The mode by the opening of the faces is not that of the domain."""
+    by_faces = np.array([row["K_I_contour"], row["K_II_contour"]])
+    by_domain = np.array([row["K_I"], row["K_II"]])
+    sizes = np.hypot(*by_faces), np.hypot(*by_domain)
+    if not (abs(J) > noise and min(sizes) > 0.0):
+        return []
+    off = np.hypot(*(by_faces / sizes[0] - by_domain / sizes[1]))
+    if not off > OTHER_MODE:
+        return []
+    return [f"contour doubtful: its mode is {100.0 * off:.0f} % of K from that of the domain"]
 
 
 def _of_closed(row, stiffness, noise) -> list[str]:

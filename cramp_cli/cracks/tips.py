@@ -13,7 +13,7 @@ import numpy as np
 
 from cramp_cli.cracks.contour_integral import along, integrate_contour
 from cramp_cli.cracks.doubts import doubts
-from cramp_cli.cracks.intensity import K_from_J, open_and_slide, opening_near_tip
+from cramp_cli.cracks.intensity import K_from_J, open_and_slide, opening_behind, opening_near_tip
 from cramp_cli.cracks.overlap import overlapping
 from cramp_cli.cracks.site import site_of
 from cramp_cli.cracks.tip_domain import measure_domain, recall_growth
@@ -92,7 +92,7 @@ def _sample(model, state, scratch, tip) -> dict:
         row |= measured
         remarks.append(remark)
     if "contour" in model.fracture.methods:
-        measured, remark = _measure_contour(model, state, scratch, tip, site, normal, slide)
+        measured, remark = _measure_contour(model, state, scratch, tip, site)
         row |= measured
         remarks.append(remark)
     row["status"] = "; ".join(filter(None, remarks))
@@ -101,7 +101,8 @@ def _sample(model, state, scratch, tip) -> dict:
     return row | {"status": "; ".join(filter(None, remarks)) or "ok"}
 
 
-def _measure_contour(model, state, scratch, tip, site, normal, slide):
+def _measure_contour(model, state, scratch, tip, site):
+    """Return J of the contour, K_I and K_II in the ratio of the opening, and a remark."""
     if site.half:
         return {}, "contour invalid: the crack lies on a symmetry plane"
     if isinstance(model.geometry, Axisymmetric):
@@ -114,7 +115,10 @@ def _measure_contour(model, state, scratch, tip, site, normal, slide):
     if contour.trouble:
         return {}, f"contour invalid: {contour.trouble}"
     J, _ = along(tip.direction(state.paths.point), contour)
-    K_I, K_II = K_from_J(J, normal, slide, site.hooke.shear, site.hooke.kappa)
+    if state.paths.fixed[tip.crack]:
+        return {"J_contour": J}, ""
+    opening = opening_behind(state.paths, tip, site.frame, model.lattice.width)
+    K_I, K_II = K_from_J(J, *opening, site.hooke.shear, site.hooke.kappa)
     return {"J_contour": J, "K_I_contour": K_I, "K_II_contour": K_II}, ""
 
 

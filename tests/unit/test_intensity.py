@@ -3,7 +3,14 @@
 import numpy as np
 import pytest
 
-from cramp_cli.cracks.intensity import K_from_J, open_and_slide, opening_near_tip
+from cramp_cli.cracks.domain_integral import TipFrame
+from cramp_cli.cracks.intensity import (
+    K_from_J,
+    open_and_slide,
+    opening_behind,
+    opening_near_tip,
+)
+from cramp_cli.cracks.tips import Tip
 from cramp_cli.state.paths import PLAIN, make_paths
 
 SHEAR, NU = 27e9, 0.3
@@ -80,3 +87,46 @@ def test_both_ends_of_an_opening_crack_are_opened(end):
 def test_a_short_crack_has_its_first_gap_only(end):
     gaps = np.array([0.0, 1.0, 0.0])[:, None] * [0.0, 1.0]
     assert abs(opening_near_tip(opened(3, gaps), 0, end)[1]) == 1.0
+
+
+def behind(bend, line, end, K=(0.6, 0.8)):
+    """Return the mean opening and sliding behind a tip whose faces part by K sqrt(r), as seen.
+
+    bend: of the crack (1/m), an arc; line: height of its line over the middle between the particles
+    """
+    r = 0.5 * np.arange(40)
+    turn = bend * r
+    x, y = (-r, 0.0 * r) if not bend else (-np.sin(turn) / bend, (1.0 - np.cos(turn)) / bend)
+    ahead = np.stack([np.cos(turn), -np.sin(turn)], axis=1)
+    normal = np.stack([np.sin(turn), np.cos(turn)], axis=1)
+    opened = K[0] * np.sqrt(r)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        slid = K[1] * np.sqrt(r) + np.nan_to_num(0.5 * line * opened / (2.0 * r))
+    gap = opened[:, None] * normal + slid[:, None] * ahead
+    points = np.stack([x, y], axis=1)
+    if end == END:
+        points, gap = points[::-1], gap[::-1]
+    paths = make_paths([points.copy()], [(PLAIN, PLAIN)], [0], [(-1, 0)], 2)
+    side = 1.0 if end == END else -1.0
+    paths.above[:] = points + side * 0.5 * gap
+    paths.below[:] = points - side * 0.5 * gap
+    tip = Tip(0, end, np.arange(40)[::-1] if end == END else np.arange(40))
+    frame = TipFrame((0.0, 0.0), (1.0, 0.0), (1.0, 0.0), line, bend)
+    return np.array(opening_behind(paths, tip, frame, 1.0))
+
+
+@pytest.mark.parametrize("end", [START, END])
+@pytest.mark.parametrize("line", [0.0, 0.25, -0.25])
+@pytest.mark.parametrize("bend", [0.0, 0.05, -0.05])
+def test_the_mode_is_that_of_the_faces_of_the_solid(bend, line, end):
+    """For faces that part like those of a tip, on an arc as well; chords are shorter by 1e-5."""
+    assert behind(bend, line, end) == pytest.approx((0.6, 0.8), rel=5e-5)
+
+
+def test_a_short_crack_has_the_mode_of_its_opening_near_the_tip():
+    """Two segments: half of it holds no point beyond the first cell."""
+    paths = opened(3, [[0.0, 0.0], [0.1, 0.2], [0.0, 0.0]])
+    tip = Tip(0, END, np.arange(3)[::-1])
+    frame = TipFrame((2.0, 0.0), (1.0, 0.0), (1.0, 0.0))
+    near = open_and_slide(opening_near_tip(paths, 0, END), (1.0, 0.0))
+    assert opening_behind(paths, tip, frame, 2.0) == near

@@ -6,11 +6,13 @@ The bodies are at rest; where a word is about the fields, the particles are give
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 from support import build_deck, locate
 from unit.test_tips import PLATE, inner, pieces, rectangle, sampled
 
 from cramp_cli.cracks.contact import SLIDING
+from cramp_cli.cracks.doubts import of_mode
 from cramp_cli.cracks.tips import sample_tips
 from cramp_cli.state.growth import BLEND, HELD, KINK, MIXED, OWN
 from cramp_cli.state.particles import DISSIPATED
@@ -139,6 +141,10 @@ def both_modes(p, growth):
     works(p, growth)
 
 
+def grows_to_the_right(p, growth):
+    p.stress[:, 1] = 1e-6 * p.origin[:, 0] ** 3
+
+
 def grown(stage, J=1.0, wall=0.0, speed=0.0, reach=5.0):
     """Return what marks the tip as one that has grown, with the load found at that stage."""
 
@@ -151,6 +157,7 @@ def grown(stage, J=1.0, wall=0.0, speed=0.0, reach=5.0):
 
 METAL = {"law": "j2_plastic", "density": 1, "E": 2, "nu": 0.25,
          "hardening": {"type": "linear", "yield_stress": 100}}  # fmt: skip
+OTHER_MODE = "contour doubtful: its mode is 10 % of K from that of the domain"
 # What the particles, or the growth so far, say of a tip; sections of the deck; the word.
 FIELDS = {
     "work without stress": (works, {}, "doubtful: J and that of K differ by 100 %"),
@@ -164,6 +171,11 @@ FIELDS = {
         {"analysis": "axisymmetric", "bodies": [{"name": "r", "material": "soft", "shape": RING}],
          "cracks": [{"name": "c", **inner((40, 10), (55, 10), start="edge")}]},
         "doubtful: K_II/K_I is off by about 9 % where a ring has both modes; J stands"),
+    "another material and a load that varies": (
+        grows_to_the_right,
+        {"bodies": pieces("soft", "hard"), "fracture": DOMAIN,
+         "cracks": [{"name": "c", **inner((0, 10), (12, 10), start="edge")}]},
+        "doubtful: domains of several radii differ by"),
     "a short kink": (grown(KINK), {}, "kink: from the field around the corner"),
     "a longer kink": (grown(BLEND), {}, "kink: partly from the field around the corner"),
     "no room for a domain": (
@@ -200,10 +212,19 @@ def test_closed_faces_that_give_energy_are_told():
     assert status.startswith("closed; doubtful: J is -")
 
 
+def test_an_opening_of_another_mode_is_told():
+    """A tenth of K off in K_II is 10 %; a hundredth is nothing, and so is all where J is noise."""
+    row = {"K_I": 1.0, "K_II": 0.0, "K_I_contour": 2.0}
+    assert of_mode(row | {"K_II_contour": 0.2}, 1.0, 0.5) == [OTHER_MODE]
+    assert of_mode(row | {"K_II_contour": 0.02}, 1.0, 0.5) == []
+    assert of_mode(row | {"K_II_contour": 0.2}, 1.0, 2.0) == []
+    assert of_mode(row | {"K_I_contour": np.nan, "K_II_contour": np.nan}, 1.0, 0.5) == []
+
+
 def test_the_page_knows_every_word_here_and_no_other():
     """A row of the table stands for the words up to its first gap `...`."""
     rows = re.findall(r"^\| `([^`]+)` \|", PAGE.read_text(), flags=re.MULTILINE)
     heads = [row.split("...")[0].strip() for row in rows]
-    words = [entry[2] for entry in (*AROUND.values(), *FIELDS.values())]
+    words = [entry[2] for entry in (*AROUND.values(), *FIELDS.values())] + [OTHER_MODE]
     assert [head for head in heads if not any(head in word for word in words)] == []
     assert [word for word in words if not any(head in word for head in heads)] == []
