@@ -52,8 +52,10 @@ TRACTIONS = (  # in turn, one with each of the settings
     {"law": "trilinear", **KNEE},
     {"law": "pressure", "value": 1.0},
 )
+BETWEEN_LINES = {"type": "rectangle", "lower": [0, -0.2], "upper": [20, 10]}  # sized particles
 SETTINGS = (
     ("plane_strain", "ugimp", "flip"),
+    ("plane_strain", "ugimp", "flip", BETWEEN_LINES),
     ("plane_strain", "ugimp", "fmpm(2)"),
     ("plane_strain", "ugimp", "xpic(2)"),
     ("plane_strain", "linear", "flip"),
@@ -67,8 +69,12 @@ SETTINGS = (
 
 def run_small_cases() -> None:
     """Take a step of a small cracked body with every kind of kernel."""
-    for (analysis, shape, update), traction in zip(SETTINGS, cycle(TRACTIONS), strict=False):
+    for (analysis, shape, update, *bodies), traction in zip(
+        SETTINGS, cycle(TRACTIONS), strict=False
+    ):
         data = yaml.safe_load(DECK)
+        for body, place in zip(data["bodies"], bodies, strict=False):
+            body["shape"] = place
         data["cracks"][0]["traction"] = traction
         data["analysis"] = analysis
         data["solver"] |= {"shape": shape, "update": update}

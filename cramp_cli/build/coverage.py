@@ -14,7 +14,7 @@ import numpy as np
 SNAP = 2e-6  # boxes; corners of an outline nearer than this to a line of the lattice lie on it
 NOTHING = 1e-9  # of a box; less is round-off
 GAUSS = 0.5 - np.sqrt(1.0 / 12.0), 0.5 + np.sqrt(1.0 / 12.0)  # exact for cubics
-FULL = (1.0, 0.5, 0.5, 1.0 / 3.0, 1.0 / 3.0)
+FULL = (1.0, 0.5, 0.5, 1.0 / 3.0, 1.0 / 3.0, 1.0, 1.0, 1.0, 1.0)
 
 
 class Coverage(NamedTuple):
@@ -24,6 +24,7 @@ class Coverage(NamedTuple):
     area: np.ndarray  # (n,) share of the box, exactly 1 where it is full
     first: np.ndarray  # (n, 2) integrals of x and y from the lower left corner of the box
     second: np.ndarray  # (n, 2) integrals of x^2 and y^2 from there
+    side: np.ndarray  # (n, 4) lengths of its sides inside: right, left, upper and lower one
 
 
 def coverage(rings: list) -> Coverage:
@@ -32,28 +33,51 @@ def coverage(rings: list) -> Coverage:
     rings: closed lines (k + 1, 2) with the region at their left, in boxes
     """
     start, end = _pieces(rings)
+    box, table, run = _along_rows(start, end)
+    across, other, _ = _along_rows(end[:, ::-1], start[:, ::-1])  # the same with x and y exchanged
+    order = np.lexsort(box.T)
+    found = places_of(box[order], across[:, ::-1])
+    sides = np.zeros((len(box), 2))
+    sides[order[found[found >= 0]]] = other[found >= 0, 5:]
+    return _joined(box, np.c_[table, sides], run)
+
+
+def places_of(boxes, wanted) -> np.ndarray:
+    """Return which of the boxes (n, 2), row by row, each of those wanted (m, 2) is, or -1."""
+    low = np.minimum(boxes.min(axis=0), wanted.min(axis=0, initial=0))
+    wide = max(boxes[:, 0].max(), wanted[:, 0].max(initial=0)) - low[0] + 1
+    codes, code = ((one - low) @ [1, wide] for one in (boxes, wanted))
+    found = np.minimum(np.searchsorted(codes, code), len(codes) - 1)
+    return np.where(codes[found] == code, found, -1)
+
+
+def _along_rows(start, end) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the boxes with pieces (n, 2), what is in them, how many full ones are at their left.
+
+    start, end: of pieces of the outline with the region at their left, each in one box
+
+    returns: second area, x, y, x^2, y^2, right and left side (n, 7)
+    """
     column, row = np.floor(0.5 * (start + end)).astype(np.int64).T
     corner = np.stack([column, row], axis=1)
     inside, beyond = _integrals(start - corner, end - corner)
     keys, which = np.unique(np.stack([row, -column], 1), axis=0, return_inverse=True)
-    which = which.ravel()
-    inside, beyond = (_summed(which, len(keys), table) for table in (inside, beyond))
+    inside, beyond = (_summed(which.ravel(), len(keys), table) for table in (inside, beyond))
     row, column = keys[:, 0], -keys[:, 1]  # each row from the right
     last = np.append(row[1:] != row[:-1], True)
-    total = np.cumsum(beyond, axis=0)
-    before = np.vstack([np.zeros((1, 3)), total[:-1]])
-    starts = np.flatnonzero(np.append(True, last[:-1]))
-    before -= np.repeat(before[starts], np.diff(np.append(starts, len(row))), axis=0)
+    before = np.vstack([np.zeros((1, 3)), np.cumsum(beyond, axis=0)[:-1]])
+    firsts = np.flatnonzero(np.append(True, last[:-1]))
+    before -= np.repeat(before[firsts], np.diff(np.append(firsts, len(row))), axis=0)
     g0, g1, g2 = before.T
     inside += np.stack([g0, 0.5 * g0, g1, g0 / 3.0, g2], axis=1)
-    covered = (before + beyond)[:, 0]  # of the boxes at the left, up to the next that has an edge
-    run = np.where(last, 0, column - np.append(column[1:], 0) - 1) * (covered > 0.5)
-    return _joined(np.stack([column, row], 1), inside, run)
+    left = (before + beyond)[:, 0]
+    gap = np.where(last, 0, column - np.append(column[1:], 0) - 1)
+    return np.stack([column, row], 1), np.c_[inside, g0, left], gap * (left > 0.5)
 
 
 def _joined(box, table, run) -> Coverage:
     """Return boxes with edges and the full ones between them; run: how many at the left of each."""
-    table[np.abs(table[:, 0] - 1.0) < NOTHING] = FULL
+    table[np.abs(table[:, 0] - 1.0) < NOTHING, :5] = FULL[:5]
     some = table[:, 0] >= NOTHING
     back = np.arange(run.sum()) - np.repeat(np.cumsum(run) - run, run)
     between = np.repeat(box, run, axis=0)
@@ -62,7 +86,7 @@ def _joined(box, table, run) -> Coverage:
     table = np.concatenate([table[some], np.tile(FULL, (len(between), 1))])
     order = np.lexsort(box.T)
     table = table[order]
-    return Coverage(box[order], table[:, 0], table[:, 1:3], table[:, 3:5])
+    return Coverage(box[order], table[:, 0], table[:, 1:3], table[:, 3:5], table[:, 5:])
 
 
 def _pieces(rings) -> tuple[np.ndarray, np.ndarray]:

@@ -11,23 +11,14 @@ import numpy as np
 from shapely.errors import ShapelyError
 
 from cramp_cli.build.coverage import Coverage, coverage
-from cramp_cli.build.surface import outline_of, rings_of, settled
+from cramp_cli.build.slivers import least_share, without_slivers
+from cramp_cli.build.surface import outline_of, rings_of, settled, with_images
 from cramp_cli.deck.deck import DeckError
 from cramp_cli.deck.regions import Regions
 
 ON_PLANE = 1e-6  # cells
-# A part smaller than this share of a full particle goes to its neighbour. What is alone in a cell,
-# over a share f of it, is a spring of stiffness f with a mass of f^2/2 for a node: it asks for a
-# time step in proportion to sqrt(f). From 0.3 on the cells themselves ask for none that is longer
-# (measured: usl- at cfl 0.5, usavg+ at 0.8). With one particle along a cell that is the limit, or
-# particles would become larger than a cell.
-LEAST = 0.6
-LEAST_WIDTH = 0.3  # cells
-ALIKE = 1e-6  # neighbours whose shares differ by less are as full as each other
 BOX = 1e-3  # a part whose area differs by less from that of its box is one
 WIDEST = 0.5  # cells; half size of a particle at most, or it would see nodes that no function has
-SIDES = np.array([[1, 0], [-1, 0], [0, 1], [0, -1]])
-DIAGONALS = np.array([[1, 1], [-1, 1], [1, -1], [-1, -1]])
 
 
 class Seeds(NamedTuple):
@@ -73,9 +64,10 @@ def _of_solid(deck, lattice, region, per_cell) -> Seeds:
     if not rings:
         return _none()
     seeds = gathered(coverage([(ring - lattice.lower) / box for ring in rings]), lattice, per_cell)
-    return (
-        seeds if deck.contact.bodies is None else _touching(seeds, region, lattice.width, per_cell)
-    )
+    if deck.contact.bodies is None:
+        return seeds
+    outline = with_images(region, deck, ON_PLANE * lattice.width).boundary
+    return _touching(seeds, outline, lattice.width, per_cell)
 
 
 def _none() -> Seeds:
@@ -84,19 +76,22 @@ def _none() -> Seeds:
 
 def are_sized(seeds) -> bool:
     """Return whether some particle is not full, or has a sliver beside it."""
-    return any(np.any(one.share != 1.0) for one in seeds)
+    return any(np.any(one.share != 1.0) or np.any(one.half != one.half[0]) for one in seeds)
 
 
-def _touching(seeds: Seeds, region, width: float, per_cell: int) -> Seeds:
+def _touching(seeds: Seeds, outline, width: float, per_cell: int) -> Seeds:
     """Return particles of which those that are no boxes touch others with a circle.
 
-    It is inscribed in the outline, which so lies where it is. width: of a cell (m)
+    It is inscribed in the outline, which so lies where it is.
+
+    outline: with that of the image behind symmetry planes, where there is no surface; width: of a
+    cell (m)
     """
     import shapely
 
     boxes = 4.0 * per_cell**2 * seeds.half.prod(axis=1)
     odd = np.flatnonzero(np.abs(boxes - seeds.share) > BOX)
-    outline, reach = region.boundary, seeds.reach.copy()
+    reach = seeds.reach.copy()
     shapely.prepare(outline)
     away = shapely.distance(outline, shapely.points(seeds.position[odd])) / width
     reach[odd] = np.maximum(away, ON_PLANE)[:, None]
@@ -105,8 +100,7 @@ def _touching(seeds: Seeds, region, width: float, per_cell: int) -> Seeds:
 
 def gathered(parts: Coverage, lattice, per_cell: int) -> Seeds:
     """Return a particle for every box, but none for those that hold next to nothing."""
-    least = min(LEAST, LEAST_WIDTH * per_cell)
-    parts, low, high = _without_slivers(parts, least)
+    parts, low, high = without_slivers(parts, least_share(per_cell))
     centre = parts.first / parts.area[:, None]
     spread = np.maximum(parts.second / parts.area[:, None] - centre**2, 0.0)
     # The box with the same second moment; the part itself, if it is a box. It keeps to the boxes
@@ -117,50 +111,6 @@ def gathered(parts: Coverage, lattice, per_cell: int) -> Seeds:
     half[whole] = 0.5 / per_cell
     position = lattice.lower + lattice.width / per_cell * (parts.box + centre)
     return Seeds(position, parts.area, half, half)
-
-
-def _without_slivers(parts: Coverage, least: float) -> tuple[Coverage, np.ndarray, np.ndarray]:
-    """Return the boxes with all that is less than `least` given to the fullest box beside it.
-
-    Boxes as full as each other take equal parts. A sliver with nothing but slivers around it stays.
-
-    returns: and from where to where each reaches (n, 2), from its own corner, in boxes
-    """
-    area, first, second = parts.area.copy(), parts.first.copy(), parts.second.copy()
-    low, high = np.zeros_like(first), np.ones_like(first)
-    gone = np.zeros(len(area), dtype=bool)
-    for sliver in np.flatnonzero(parts.area < least):
-        takers = _takers(parts, sliver, least)
-        gone[sliver] = len(takers) > 0
-        for taker in takers:
-            way = parts.box[sliver] - parts.box[taker]
-            a, f, s = (of[sliver] / len(takers) for of in parts[1:])
-            area[taker] += a
-            first[taker] += f + way * a
-            second[taker] += s + 2.0 * way * f + way**2 * a
-            low[taker] = np.minimum(low[taker], way)
-            high[taker] = np.maximum(high[taker], way + 1.0)
-    kept = ~gone
-    box = parts.box[kept]
-    return Coverage(box, area[kept], first[kept], second[kept]), low[kept], high[kept]
-
-
-def _takers(parts: Coverage, sliver: int, least: float) -> list[int]:
-    """Return the fullest boxes at the sides of a sliver, else at its corners; none: all slivers."""
-    for ways in (SIDES, DIAGONALS):
-        beside = [_at(parts.box, parts.box[sliver] + way) for way in ways]
-        beside = [n for n in beside if n >= 0 and parts.area[n] >= least]
-        if beside:
-            most = max(parts.area[n] for n in beside)
-            return [n for n in beside if parts.area[n] > most - ALIKE]
-    return []
-
-
-def _at(boxes, wanted) -> int:
-    """Return which of the boxes, row by row, is at a column and row, or -1."""
-    low, high = np.searchsorted(boxes[:, 1], [wanted[1], wanted[1] + 1])
-    n = low + int(np.searchsorted(boxes[low:high, 0], wanted[0]))
-    return n if n < high and boxes[n, 0] == wanted[0] else -1
 
 
 def _of_rigid(deck, lattice, number) -> Seeds:

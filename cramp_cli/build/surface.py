@@ -47,7 +47,7 @@ def outline_of(deck, number, width):
     near = SAME * width
     wall = union_all([own, *(snap(one, own, near) for one in alike)])
     mine = [part for part in get_parts(wall) if part.distance(own) == 0.0]
-    return _with_images(union_all(mine), deck, near).simplify(near)
+    return with_images(union_all(mine), deck, near).simplify(near)
 
 
 def rings_of(region) -> list:
@@ -62,7 +62,7 @@ def rings_of(region) -> list:
     return [get_coordinates(ring) for part in parts for ring in (part.exterior, *part.interiors)]
 
 
-def _with_images(outline, deck, near):
+def with_images(outline, deck, near):
     """Return an outline joined with its images behind symmetry planes and the axis of rings.
 
     near: length below which two corners are one (m)

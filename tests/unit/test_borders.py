@@ -7,14 +7,18 @@ import pytest
 import shapely
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from support import build_deck, locate
+from pydantic import TypeAdapter
+from support import advance, build_deck, locate, read
 
 from cramp_cli.boundary.conditions import add_loads
+from cramp_cli.build import filled
 from cramp_cli.build.coverage import coverage
-from cramp_cli.build.seeds import LEAST
+from cramp_cli.build.slivers import least_share
 from cramp_cli.build.surface import rings_of
 from cramp_cli.cracks.fields import find_openings
-from cramp_cli.transfer.sums import sum_internal_force, sum_mass_and_momentum
+from cramp_cli.deck.shapes import AnyShape
+from cramp_cli.scratch import make_scratch
+from cramp_cli.transfer.sums import sort_particles, sum_internal_force, sum_mass_and_momentum
 
 GROUND = """
 cramp: 1
@@ -64,6 +68,10 @@ triangle = st.builds(
 any_shape = st.one_of(rectangle, disk, annulus, ellipse, triangle)
 
 
+def outline_of(shape):
+    return TypeAdapter(AnyShape).validate_python(shape, context={"folder": None}).outline()
+
+
 def body(shape, per_cell=2, **more):
     return {"name": "b", "material": "m", "particles_per_cell": per_cell, "shape": shape} | more
 
@@ -99,6 +107,12 @@ def test_what_lies_in_each_box(corners):
     assert found.area == pytest.approx(shapely.area(parts), abs=1e-5)
     centre = shapely.get_coordinates(shapely.centroid(parts)) - found.box
     assert found.first == pytest.approx(shapely.area(parts)[:, None] * centre, abs=1e-5)
+    hair = 1e-7  # what lies on the border itself belongs to neither side
+    x, y = x - hair, y - hair
+    right = shapely.linestrings(np.stack([np.c_[x + 1, y], np.c_[x + 1, y + 1]], axis=1))
+    lower = shapely.linestrings(np.stack([np.c_[x, y], np.c_[x + 1, y]], axis=1))
+    sides = (shapely.length(shapely.intersection(line, region)) for line in (right, lower))
+    assert found.side[:, [0, 3]] == pytest.approx(np.stack(list(sides), axis=1), abs=1e-4)
 
 
 @given(any_shape, per_cell)
@@ -106,20 +120,12 @@ def test_what_lies_in_each_box(corners):
 def test_mass_and_centre_of_a_body(shape, per_cell):
     assume(area(shape) > 0.01)
     model, state, _ = build_deck(GROUND, bodies=[body(shape, per_cell)])
-    particles, region = state.particles, model_region(model, shape)
+    particles, region = state.particles, outline_of(shape)
     assert particles.mass.sum() == pytest.approx(PER_VOLUME * area(shape), rel=DISCS_ARE_POLYGONS)
     centre = particles.mass @ particles.position / particles.mass.sum()
     assert centre == pytest.approx(shapely.get_coordinates(region.centroid)[0], abs=1e-4)
     assert particles.mass.min() > 0.0
     assert np.all(model.half is None or model.half <= 0.5)
-
-
-def model_region(model, shape):
-    from pydantic import TypeAdapter
-
-    from cramp_cli.deck.shapes import AnyShape
-
-    return TypeAdapter(AnyShape).validate_python(shape, context={"folder": None}).outline()
 
 
 @given(thousandths(0.1, 0.9), thousandths(0.1, 0.9), thousandths(3.0, 9.0), per_cell)
@@ -129,7 +135,7 @@ def test_no_particle_of_a_large_body_is_light(x, y, side, per_cell):
     shape = {"type": "rectangle", "lower": [x, y], "upper": [x + side, y + 0.7 * side]}
     _, state, _ = build_deck(GROUND, bodies=[body(shape, per_cell)])
     full = PER_VOLUME / per_cell**2
-    assert state.particles.mass.min() >= min(LEAST, 0.3 * per_cell) * full * (1.0 - 1e-9)
+    assert state.particles.mass.min() >= least_share(per_cell) * full * (1.0 - 1e-9)
 
 
 @given(disk, rectangle, per_cell)
@@ -138,7 +144,7 @@ def test_a_later_body_leaves_neither_gap_nor_overlap(first, second, per_cell):
     """Together they have the mass of the union, the later one all of its own."""
     bodies = [body(first, per_cell), body(second, per_cell, name="later")]
     assume(area(second) > 0.01)
-    regions = [model_region(None, shape) for shape in (first, second)]
+    regions = [outline_of(shape) for shape in (first, second)]
     assume((regions[0] - regions[1]).area > 0.01)
     _, state, _ = build_deck(GROUND, bodies=bodies)
     mass = np.bincount(state.particles.body, state.particles.mass)
@@ -234,3 +240,93 @@ def test_a_uniform_stress_is_in_balance_with_its_tractions(x, y, width, height, 
     state.particles.stress[:] = [2.0, -3.0, 0.0, 0.7]
     sum_internal_force(model, state, scratch)
     assert np.abs(scratch.grid.force).max() < 1e-12
+
+
+@pytest.mark.parametrize("kind", ["ugimp", "cpdi"])
+def test_sizes_go_with_their_particles(kind):
+    """Sorted anew, every particle still has its own size: not a bit of its sums changes."""
+    model, state, scratch = forces([], solver={"shape": kind})
+    assert model.half is not None
+    for turned in (False, True):
+        if turned:
+            state.particles.position[:, 0] = 9.5 - state.particles.position[:, 0]
+            sort_particles(model, state, scratch)
+        half = model.half[state.particles.id]
+        np.testing.assert_array_equal(scratch.stencil.half, half)
+    assert not np.array_equal(state.particles.id, np.arange(len(half)))
+
+
+@pytest.mark.parametrize("kind", ["ugimp", "cpdi"])
+def test_threads_and_stops_do_not_change_a_bit(kind):
+    moving = body(BOX, velocity=[0.06, -0.04], angular_velocity=0.01)
+    places = []
+    for threads, parts in ((1, (20,)), (2, (20,)), (4, (10, 10))):
+        solver = {"shape": kind, "strain": "usavg-"}
+        model, state, _ = build_deck(GROUND, bodies=[moving], solver=solver)
+        for steps in parts:
+            advance(model, state, make_scratch(model, state, threads), steps)
+        places.append(state.particles.position[np.argsort(state.particles.id)].tobytes())
+    assert places[0] == places[1] == places[2]
+
+
+@pytest.mark.parametrize("analysis", ["plane_strain", "axisymmetric"])
+def test_the_report_says_what_is_asked_and_filled(analysis):
+    loads = [
+        {"type": "force", "body": "b", "where": {"y": [3, 4]}, "total": [2.0, 0.0]},
+        {"type": "traction", "body": "b", "where": {"y": 6.84, "x": [2, 3.3]}, "traction": [0, 4]},
+        {"type": "traction", "body": "b", "where": {"y": 1.21}, "pressure": 4, "name": "below"},
+    ]
+    deck = GROUND.replace("plane_strain", analysis)
+    if analysis == "axisymmetric":
+        deck = deck.replace("thickness: 0.3\n", "")
+    model, state, _ = build_deck(deck, bodies=[body(BOX)], loads=loads)
+    facts = filled(read(deck, bodies=[body(BOX)], loads=loads), model, state)
+    deep = (lambda x: 0.3) if analysis == "plane_strain" else (lambda x: 2.0 * pi * x)
+    mass = 2.0 * area(BOX) * deep(4.75)
+    assert facts["b: mass, kg"] == f"{mass:.6g} asked, {mass:.6g} filled (0.000 % off)"
+    assert facts["load 1: force, N"] == "2, 0 asked, 2, 0 filled (0.000 % off)"
+    up, below = 4 * 1.3 * deep(2.65), 4 * 8.76 * deep(4.75)
+    assert facts["load 2: force, N"] == f"0, {up:.6g} asked, 0, {up:.6g} filled (0.000 % off)"
+    wanted = f"0, {below:.6g} asked, 0, {below:.6g} filled (0.000 % off)"
+    assert facts["load below: force, N"].replace("-0,", "0,") == wanted
+
+
+@pytest.mark.parametrize(("height", "told"), [(0.74, "0.74"), (1.9, "1.9"), (2.0, None)])
+def test_a_thin_body_is_told(height, told):
+    shape = {"type": "rectangle", "lower": [0, 0.3], "upper": [10, 0.3 + height]}
+    warnings = [str(one) for one in read(GROUND, bodies=[body(shape)]).warnings]
+    wanted = [] if told is None else [f"is {told} cells thick: too few for stresses across it"]
+    assert len(warnings) == len(wanted)
+    assert all(text in warning for text, warning in zip(wanted, warnings, strict=True))
+
+
+@pytest.mark.parametrize(("pixel", "seed"), [(0.31, 1), (0.5, 2), (0.77, 3), (1.63, 4)])
+def test_mass_of_a_picture(tmp_path, pixel, seed):
+    """As many pixels as have the grey, each as large as it is, whatever the cell."""
+    pictures = pytest.importorskip("PIL.Image")
+    mask = np.random.default_rng(seed).random((7, 9)) < 0.6
+    pictures.fromarray(np.where(mask, 0, 255).astype(np.uint8)).save(tmp_path / "cut.png")
+    shape = {"type": "image", "file": str(tmp_path / "cut.png"), "grey": [0, 99], "pixel": pixel}
+    shape["origin"] = [0.3, 0.1]
+    _, state, _ = build_deck(GROUND, bodies=[body(shape)])
+    wanted = PER_VOLUME * mask.sum() * pixel**2
+    assert state.particles.mass.sum() == pytest.approx(wanted, rel=1e-4)
+
+
+def test_mass_of_a_mesh(tmp_path):
+    """The area of its triangles."""
+    import meshio
+
+    points = np.random.default_rng(5).uniform(0.0, 12.0, (12, 2))
+    corners = [
+        triangle for triangle in shapely.delaunay_triangles(shapely.MultiPoint(points)).geoms
+    ]
+    cells = np.array([
+        [int(np.argmin(np.hypot(*(points - c).T))) for c in triangle.exterior.coords[:3]]
+        for triangle in corners[::2]
+    ])  # fmt: skip
+    meshio.Mesh(np.c_[points, np.zeros(12)], [("triangle", cells)]).write(tmp_path / "part.vtu")
+    shape = {"type": "mesh", "file": str(tmp_path / "part.vtu")}
+    _, state, _ = build_deck(GROUND, bodies=[body(shape)])
+    wanted = PER_VOLUME * sum(triangle.area for triangle in corners[::2])
+    assert state.particles.mass.sum() == pytest.approx(wanted, rel=1e-4)

@@ -71,7 +71,7 @@ solver: {end_time: 1000}
 @pytest.mark.parametrize("share", [0.02, 0.26, 0.45, 0.59, 0.61, 0.9])
 @pytest.mark.parametrize(("strain", "cfl", "lost"), [("usavg+", 0.8, 0.07), ("usl-", 0.5, 0.75)])
 def test_no_light_particle_makes_a_run_unstable(share, strain, cfl, lost):
-    """A bar is stopped; slivers stand out at three sides. Bounds: what a bar that fits loses."""
+    """A bar is stopped; slivers stand out at three sides. A bar that fits loses 6 and 71 %."""
     low, high = [-0.5 * share, -0.5 * share], [12.0, 4.0 + 0.5 * share]
     shape = {"type": "rectangle", "lower": low, "upper": high}
     body = {"name": "bar", "material": "m", "velocity": [0.01, 0], "shape": shape}
@@ -80,5 +80,5 @@ def test_no_light_particle_makes_a_run_unstable(share, strain, cfl, lost):
     start = float(sum_energies(state.particles)[0])
     for _ in range(3):
         advance(model, state, scratch, 200)
-        kinetic, strained = (float(part) for part in sum_energies(state.particles)[:2])
-        assert (1.0 - lost) * start < kinetic + strained < 1.001 * start
+        left = sum(sum_energies(state.particles)[:2]) - state.books.external[0]
+        assert (1.0 - lost) * start < left < 1.001 * start
