@@ -24,8 +24,16 @@ bodies:
 - {name: low, material: m, shape: {type: rectangle, lower: [0, -25 mm], upper: [70 mm, -23 mm]}}
 cracks: [{name: c, points: [[0, 0], [15 mm, 0]], start: edge, end: tip}]
 loads:
-- {type: force, body: top, where: {x: [-9, 9]}, total: [0, 21 MN], in_time: {type: ramp, until: 1 us}}
-- {type: force, body: low, where: {x: [-9, 9]}, total: [0, -21 MN], in_time: {type: ramp, until: 1 us}}
+- type: force
+  body: top
+  where: {x: [-9, 9]}
+  total: [0, 21 MN]
+  in_time: {type: ramp, until: 1 us}
+- type: force
+  body: low
+  where: {x: [-9, 9]}
+  total: [0, -21 MN]
+  in_time: {type: ramp, until: 1 us}
 solver: {end_time: 30 us, update: fmpm(2)}
 propagation: {criterion: max_hoop_stress}
 fracture: {every: 0.5 us, methods: [domain]}
