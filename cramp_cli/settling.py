@@ -21,6 +21,7 @@ KEPT = 2.0  # stretches
 SETTLED = 0.01  # share by which what is at rest may change
 STEEPEST = 0.9  # largest ratio of two steps with which a creep is carried on
 ENERGY = "strain energy"
+WORDS = {"K": "moving: K still changes by {}", "J": "moving: J still changes by {}"}
 
 
 class Amount(NamedTuple):
@@ -92,7 +93,7 @@ class Settling:
         change *= 2.0 if what == "J" else 1.0  # its root was watched
         if not change > SETTLED:
             return row
-        word = f"moving: {what} still changes by {_percent(change)}"
+        word = WORDS[what].format(_percent(change))
         before = "" if row["status"] == "ok" else f"{row['status']}; "
         return row | {"status": before + word}
 

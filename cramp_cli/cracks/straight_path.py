@@ -20,8 +20,8 @@ def unstable_path(model, site, row) -> list[str]:
     if not T > 0.0 or not square < 8.0 * SHORT * width * T * T:
         return []
     cells = square / (8.0 * T * T) / width
-    within = f"a turn grows by e within {cells:.2g} cells (T = {T:.2g} Pa)"
-    return [f"doubtful: {UNSTABLE}, {within}"]
+    text = "doubtful: the way is unstable, a turn grows by e within {:.2g} cells (T = {:.2g} Pa)"
+    return [text.format(cells, T)]
 
 
 def with_past(rows, told) -> list[dict]:
