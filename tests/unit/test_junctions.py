@@ -142,7 +142,7 @@ def test_two_cracks_end_to_end_are_one(joint, against):
 
 def test_arms_stay_together_in_motion():
     """Points of all arms at a junction are one point, after steps of a body that is torn apart."""
-    data = SQUARE | {"grid": {"cell": 1.0, "margin": 3.0}}
+    data = SQUARE | {"grid": {"cell": 1.0, "margin": 3}}
     cracks = [{"name": f"c{n}", **c} for n, c in enumerate(cracks_along(WAYS["three"]))]
     model, state, scratch = build_deck(data, cracks=cracks)
     away = state.particles.position - 4.0
