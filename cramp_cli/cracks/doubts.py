@@ -18,6 +18,8 @@ from cramp_cli.state.particles import DISSIPATED
 AROUND = 5.0  # cells around a tip that are looked at
 DIFFER = 0.2  # share by which two numbers for one J may differ
 OTHER_MODE = 0.02  # share of K by which the mode by the opening may be off
+BEHIND, BEHIND_CALM = 2.5, 2.0  # cells by which a running tip lags, with flip and other updates
+LOW = 0.03  # share by which that may lower K without a word
 NOISE = 0.01  # share of the strain energy around the tip that is no J
 ROUND_OFF = 1e-12  # a strain that is none
 TAKEN = 0.01  # share of the work around the tip that plastic and viscous strain may have taken
@@ -27,17 +29,18 @@ COARSE = 0.25  # half side in cells of a particle that is one of two along each 
 TURNING = 0.2  # share of K that the turning of the solid may make by itself
 
 
-def doubts(model, site, row, moving: bool) -> list[str]:
-    """Return what speaks against the J and K in a row; moving: the tip runs.
+def doubts(model, site, row, run: tuple) -> list[str]:
+    """Return what speaks against the J and K in a row.
 
-    J of a running tip has the kinetic energy in it and is not that of K.
+    run: how far a running tip has run, and the length of its crack (m); empty of a tip at rest. J
+    of a running tip has the kinetic energy in it and is not that of K.
     """
     away = np.hypot(*(site.cloud.particles.origin - site.frame.origin).T)
     near = np.flatnonzero(away < AROUND * model.lattice.width)
     particles = chosen_from(site.cloud.particles, near)
     found = [*_of_law(particles, site), *_of_rings(model, site, row), *_of_cells(model, site)]
-    if moving:
-        return found + _of_running(model, row) + unstable_path(model, site, row)
+    if run:
+        return found + _of_running(model, row, run) + unstable_path(model, site, row)
     if not len(near):
         return found
     width, stiffness = model.lattice.width, site.hooke.stiffness
@@ -65,11 +68,23 @@ def stiffness_at(site) -> float:
     return confined_modulus(site.block.law) if isnan(stiffness) else stiffness
 
 
-def _of_running(model, row) -> list[str]:
-    """Without the tractions of release.py, which need smooth tips, waves go round the tip."""
+def _of_running(model, row, run) -> list[str]:
+    """Without the tractions of release.py, which need smooth tips, waves go round the tip.
+
+    With them the faces hold on to each other up to three cells behind it: the tip acts from there,
+    and K, as the root of the length of the crack, is that of a shorter one. Seen in cracks that
+    expand at 0.2 to 0.6 c_R.
+    """
     found = ["doubtful: J is negative"] if row["J"] < 0.0 else []
     if model.tip_nodes is None:
         found.append("doubtful: a sharp tip leaves in the solid what it releases")
+        return found
+    way, length = run
+    lag = min(BEHIND if model.calm_tips else BEHIND_CALM, way / model.lattice.width)
+    low = 0.5 * lag * model.lattice.width / length
+    if low > LOW:
+        text = "doubtful: a running tip acts {:.1f} cells behind its place, K is about {:.0f} % low"
+        found.append(text.format(lag, 100.0 * low))
     return found
 
 

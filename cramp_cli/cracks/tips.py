@@ -96,9 +96,18 @@ def _sample(model, state, scratch, tip) -> dict:
         row |= measured
         remarks.append(remark)
     row["status"] = "; ".join(filter(None, remarks))
-    moving = bool(grown and row["speed"] > 0.0)
-    remarks += doubts(model, site, row, moving) + overlapping(model, state.paths, tip, site, row)
+    run = _run(state, tip, row)
+    remarks += doubts(model, site, row, run) + overlapping(model, state.paths, tip, site, row)
     return row | {"status": "; ".join(filter(None, remarks)) or "ok"}
+
+
+def _run(state, tip, row) -> tuple:
+    """Return how far a running tip has run, and the length of its crack; half with two tips."""
+    if not row["speed"] > 0.0:
+        return ()
+    two = np.all(state.paths.ends[tip.crack] == TIP)
+    way = float(state.growth.length[2 * tip.crack + tip.end])
+    return way, row["length"] * (0.5 if two else 1.0)
 
 
 def _measure_contour(model, state, scratch, tip, site):

@@ -145,11 +145,11 @@ def grows_to_the_right(p, growth):
     p.stress[:, 1] = 1e-6 * p.origin[:, 0] ** 3
 
 
-def grown(stage, J=1.0, wall=0.0, speed=0.0, reach=5.0):
+def grown(stage, J=1.0, wall=0.0, speed=0.0, reach=5.0, way=1.0):
     """Return what marks the tip as one that has grown, with the load found at that stage."""
 
     def mark(p, growth):
-        growth.length[1], growth.stage[1], growth.wall[1], growth.speed[1] = 1.0, stage, wall, speed
+        growth.length[1], growth.stage[1], growth.wall[1], growth.speed[1] = way, stage, wall, speed
         growth.load[1], growth.reach[1] = (J, 1.0, 0.0), reach
 
     return mark
@@ -187,6 +187,9 @@ FIELDS = {
     "a sharp tip that runs": (
         grown(OWN, speed=0.1), {"solver": {"end_time": 1, "tips": "sharp"}},
         "doubtful: a sharp tip leaves in the solid what it releases"),
+    "a short crack that runs": (
+        grown(OWN, speed=0.1, way=3.0), {},
+        "doubtful: a running tip acts 2.5 cells behind its place"),
     "energy out of a tip": (grown(HELD, J=-1.0, speed=0.1), {}, "doubtful: J is negative"),
 }  # fmt: skip
 

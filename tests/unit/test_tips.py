@@ -328,4 +328,4 @@ def test_closed_faces_have_no_less_than_the_J_of_K_II(J, K_II, doubtful):
     (tip,) = tips_of(state.paths)
     site = site_of(model, state, scratch, tip)
     row = {"J": J, "J_tip": J, "K_I": 0.0, "K_II": K_II, "status": "closed"}
-    assert bool(doubts(model, site, row, False)) is doubtful
+    assert bool(doubts(model, site, row, ())) is doubtful
