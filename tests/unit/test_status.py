@@ -14,6 +14,7 @@ from unit.test_tips import PLATE, inner, pieces, rectangle, sampled
 from cramp_cli.cracks.contact import SLIDING
 from cramp_cli.cracks.doubts import of_mode
 from cramp_cli.cracks.tips import sample_tips
+from cramp_cli.settling import Settling
 from cramp_cli.state.growth import BLEND, HELD, KINK, MIXED, OWN
 from cramp_cli.state.particles import DISSIPATED
 
@@ -21,6 +22,8 @@ PAGE = Path(__file__).resolve().parents[2] / "docs/theory/fracture.md"
 EDGE = inner((0, 10), (15, 10), start="edge")
 DOMAIN, CONTOUR = {"methods": ["domain"]}, {"methods": ["contour"]}
 WIDE = {"methods": ["contour"], "contour": {"cells": 15}}
+DAMPED = {"damping": {"particle": 1.0}}
+OVER_TIME = {"K": "moving: K still changes by"}
 ROW_OF_BODIES = {"bodies": pieces("soft", "soft"), "contact": {"bodies": {"law": "stick"}}}
 LOADED = {"type": "traction", "body": "plate", "where": {"y": 20}, "traction": [0, 1]}
 SPRINGS = {"law": "triangular", "normal": {"peak": 2, "toughness": 3}}
@@ -155,6 +158,16 @@ def grown(stage, J=1.0, wall=0.0, speed=0.0, reach=5.0, way=1.0):
     return mark
 
 
+def drawn_along(p, growth):
+    grown(OWN, speed=0.1)(p, growth)
+    p.stress[:, 0] = 1.0
+
+
+def pressed(p, growth):
+    grown(OWN)(p, growth)
+    growth.load[1, 1] = -1.0
+
+
 METAL = {"law": "j2_plastic", "density": 1, "E": 2, "nu": 0.25,
          "hardening": {"type": "linear", "yield_stress": 100}}  # fmt: skip
 OTHER_MODE = "contour doubtful: its mode is 10 % of K from that of the domain"
@@ -191,6 +204,10 @@ FIELDS = {
         grown(OWN, speed=0.1, way=3.0), {},
         "doubtful: a running tip acts 2.5 cells behind its place"),
     "energy out of a tip": (grown(HELD, J=-1.0, speed=0.1), {}, "doubtful: J is negative"),
+    "a stress along a tip that runs": (drawn_along, {}, "doubtful: the way is unstable, a turn"),
+    "faces that ignore each other": (
+        pressed, {"contact": {"cracks": {"law": "ignore"}}},
+        "doubtful: the faces overlap at the tip"),
 }  # fmt: skip
 
 
@@ -224,10 +241,22 @@ def test_an_opening_of_another_mode_is_told():
     assert of_mode(row | {"K_I_contour": np.nan, "K_II_contour": np.nan}, 1.0, 0.5) == []
 
 
+def test_what_changes_over_time_is_told():
+    """A tip that was at rest until now; more in test_settling.py."""
+    model, _, _ = build_deck(PLATE, cracks=[{"name": "c", **EDGE}], solver=DAMPED)
+    watch = Settling(model)
+    watch.samples = [[0.1 * n, {"K c end": [1.0, 0.0]}] for n in range(10)]
+    watch.stretch = 0.5
+    row = {"crack": "c", "tip": "end", "time": 1.0, "speed": 0.0, "K_I": 2.0, "K_II": 0.0}
+    told = [watch.with_words(model, [row | {"status": s}])[0]["status"] for s in ("ok", "closed")]
+    assert told == [f"{OVER_TIME['K']} 50 %", f"closed; {OVER_TIME['K']} 50 %"]
+
+
 def test_the_page_knows_every_word_here_and_no_other():
     """A row of the table stands for the words up to its first gap `...`."""
     rows = re.findall(r"^\| `([^`]+)` \|", PAGE.read_text(), flags=re.MULTILINE)
     heads = [row.split("...")[0].strip() for row in rows]
     words = [entry[2] for entry in (*AROUND.values(), *FIELDS.values())] + [OTHER_MODE]
+    words = [entry[2] for entry in (*AROUND.values(), *FIELDS.values())] + [*OVER_TIME.values()]
     assert [head for head in heads if not any(head in word for word in words)] == []
     assert [word for word in words if not any(head in word for head in heads)] == []

@@ -16,7 +16,7 @@ from cramp_cli.output.exits import FolderError
 from cramp_cli.output.fields import read_frames
 from cramp_cli.study import page_data
 from cramp_cli.study.report import report
-from cramp_cli.study.verdicts import judge
+from cramp_cli.study.verdicts import _of_rest, judge
 
 BROWSER = shutil.which("chromium") or shutil.which("chromium-browser")
 FLAGS = ("--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking")
@@ -193,3 +193,18 @@ def test_the_page_lives_in_a_browser(page, tmp_path):
     assert (told["light"], told["dark"]) == ("rgb(255, 255, 255)", "rgb(20, 23, 26)")
     assert told["pixels"] > 10
     assert told["focusable"] >= 5 + 8 + 5
+
+
+@pytest.mark.parametrize(
+    ("rest", "mark"),
+    [
+        ("at rest at 0.001 s", "good"),
+        ("not at rest: K still changes by 20 %", "look"),
+        ("not at rest: K still changes by 20 %; solver.end_time is the limit", "bad"),
+    ],
+)
+def test_the_verdict_on_coming_to_rest(rest, mark):
+    """A deck with damping need not come to rest; one that says at_rest must."""
+    (verdict,) = _of_rest({"summary": {"rest": rest}})
+    assert (verdict.mark, verdict.answer) == (mark, rest)
+    assert not list(_of_rest({"summary": {}}))
