@@ -76,7 +76,7 @@ def _none() -> Seeds:
 
 def are_sized(seeds) -> bool:
     """Return whether some particle is not full, or has a sliver beside it."""
-    return any(np.any(one.share != 1.0) or np.any(one.half != one.half[0]) for one in seeds)
+    return any(np.any(one.share != 1.0) or np.any(one.half != one.half[:1]) for one in seeds)
 
 
 def _touching(seeds: Seeds, outline, width: float, per_cell: int) -> Seeds:

@@ -133,7 +133,8 @@ def test_no_row_has_particles_of_both_sides_of_a_crack(crack, moved, shape):
 def test_two_crossing_cracks_make_four_rows(at, slope, shape):
     """Where two cracks cross, four pieces meet: none, one, the other, both cracks between."""
     along, across = np.array(slope), np.array([-slope[1], slope[0]])
-    cracks = [straight(at - 6 * v, at + 6 * v) for v in (along, across)]
+    half = 7 / np.hypot(*slope)  # just beyond the body
+    cracks = [straight(at - half * v, at + half * v) for v in (along, across)]
     model, state, scratch = sorted_out(cracks, shape)
     assert_sorted_by_straight_cracks(model, state, scratch, cracks)
     kinds = {}
