@@ -133,10 +133,10 @@ def test_K_of_a_crack_inside(x, y, degrees):
 @given(in_cell, height, angle, st.integers(0, 2**32 - 1))
 @settings(max_examples=8)
 def test_K_does_not_mind_noise_of_the_points(x, y, degrees, seed):
-    """A digitised line: a point per 1.5 cells, each up to 0.05 cells off."""
+    """A digitised line: a point per 1.5 cells, up to 0.05 cells off. Measured: -1.4 to +0.8 %."""
     noise = np.random.default_rng(seed).uniform(-0.05, 0.05, (7, 2))
     _, _, ((K_I, _),) = with_border_crack((x, y), degrees, noise)
-    assert abs(K_I - 1.0) < 0.02
+    assert abs(K_I - 1.0) < 0.015
 
 
 def openings(at_rest, u):
