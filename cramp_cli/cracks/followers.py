@@ -37,8 +37,8 @@ MOST = 32  # nodes of a tip that may follow, or lead: LATERAL and REACH of tip_n
 ON_TIP = 1e-9  # cells; a node at the tip is behind it
 LIGHT = 1e-6  # a smaller weight of a node that leads is none
 # Share of its mass that moves with the jump of a node, below which it follows up to a cell behind
-# the tip. With 0.003 K is the same, with 0.006 it is off by 2.5 % at small angles, with none the tip
-# of a crack at 45 degrees jumps by a sixth of a cell when it passes a node.
+# the tip. With 0.003 K is the same, with 0.006 off by 2.5 % at small angles, with none the tip of a
+# crack at 45 degrees jumps by a sixth of a cell when it passes a node.
 FAINT = 0.004
 # Sine of the angle to the grid below which no node is faint: none matters there, and half a body
 # beside a symmetry plane, which is a line of the grid, does not know of those on its crack.
