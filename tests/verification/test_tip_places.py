@@ -107,9 +107,9 @@ def intensities(at_rest):
 @example(-0.033, 0.0, 2.2)  # 8 % too low when the nodes of one side alone led
 @example(-0.4, 0.3, 56.0)  # with faint nodes of their own jump 2.5 % too high
 def test_K_of_a_crack_from_the_border(x, y, degrees):
-    """Measured: -1.4 to +1.4 % in K_I, K_II up to 1.1 %, 300 places and angles."""
+    """Measured: -1.5 to +1.6 % in K_I (rms 0.7 %), K_II up to 1.1 %, 500 places and angles."""
     _, _, ((K_I, K_II),) = with_border_crack((x, y), degrees)
-    assert abs(K_I - 1.0) < 0.015
+    assert abs(K_I - 1.0) < 0.017
     assert abs(K_II) < 0.015
 
 
@@ -133,10 +133,10 @@ def test_K_of_a_crack_inside(x, y, degrees):
 @given(in_cell, height, angle, st.integers(0, 2**32 - 1))
 @settings(max_examples=8)
 def test_K_does_not_mind_noise_of_the_points(x, y, degrees, seed):
-    """A digitised line: a point per 1.5 cells, each up to 0.05 cells off."""
+    """A digitised line: a point per 1.5 cells, up to 0.05 cells off. Measured: -1.4 to +0.8 %."""
     noise = np.random.default_rng(seed).uniform(-0.05, 0.05, (7, 2))
     _, _, ((K_I, _),) = with_border_crack((x, y), degrees, noise)
-    assert abs(K_I - 1.0) < 0.02
+    assert abs(K_I - 1.0) < 0.015
 
 
 def openings(at_rest, u):
