@@ -43,8 +43,9 @@ def image_row(rows, nodes, row, image, crack):
     e = row - nodes
     a, b = rows.crack[e, 0], rows.crack[e, 1]
     first, second = rows.side[e, 0], rows.side[e, 1]
-    first = -first if rows.owner[e, 0] == crack else first
-    second = -second if rows.owner[e, 1] == crack else second
+    if crack >= 0:
+        first = -first if rows.owner[e, 0] == crack else first
+        second = -second if rows.owner[e, 1] == crack else second
     return find_row(rows, image, rows.group[e], a, first, b, second if b >= 0 else 0)
 
 

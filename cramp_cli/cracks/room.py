@@ -54,10 +54,12 @@ def through_joints(paths, tip) -> tuple[np.ndarray, list[int]]:
     points, cracks = tip.points, [tip.crack]
     while paths.joint[points[-1]] >= 0:
         arms = np.flatnonzero(paths.joint == paths.joint[points[-1]])
+        if len(arms) != 2:
+            break
         following = int(arms.sum() - points[-1])
         c = int(np.searchsorted(paths.start, following, side="right")) - 1
         more = np.arange(paths.start[c], paths.start[c + 1])
-        if len(arms) != 2 or c in cracks or following not in (more[0], more[-1]):
+        if c in cracks or following not in (more[0], more[-1]):
             break
         more = more if following == more[0] else more[::-1]
         points, cracks = np.concatenate([points, more[1:]]), [*cracks, c]

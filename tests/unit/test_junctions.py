@@ -183,10 +183,13 @@ def test_sectors_side_by_side_are_paired_across_the_arm_between_them():
 
 
 @pytest.mark.parametrize("written", ["three", "one bent, one"])
-def test_faces_at_a_junction_press_on_each_other(written):
-    """A body that is pressed together on closed arms bears as one without cracks."""
+def test_faces_at_a_junction_bear_on_each_other(written):
+    """A body that is pressed together on glued arms bears as one without cracks, within 10 %.
+
+    Not to round-off, as with one crack: pairs of sectors meet one after the other, once each.
+    """
     cracks = [
-        {"name": f"c{n}", "contact": {"law": "stick"}, **c}
+        {"name": f"c{n}", "contact": {"law": "glued"}, **c}
         for n, c in enumerate(cracks_along(WAYS[written]))
     ]
     inward = []
@@ -195,9 +198,9 @@ def test_faces_at_a_junction_press_on_each_other(written):
         state.particles.velocity[:] = -0.01 * (state.particles.position - 4.0)
         advance(model, state, scratch, 12)
         near = np.hypot(*(state.particles.position - 4.0).T) < 1.5
-        inward.append(state.particles.stress[near].mean(axis=0))
+        inward.append(state.particles.stress[near].mean(axis=0)[:2])
     assert inward[1][0] < 0.0
-    np.testing.assert_allclose(inward[0], inward[1], rtol=0.03, atol=0.03 * abs(inward[1][0]))
+    np.testing.assert_allclose(inward[0], inward[1], rtol=0.1)
 
 
 def test_a_domain_goes_through_a_joint_as_along_one_crack():

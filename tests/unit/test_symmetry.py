@@ -49,6 +49,7 @@ def test_a_crack_on_the_plane_parts_body_and_image():
     """Rows reached through it are free, and so are the nodes of the plane on it."""
     _, rows = make_grid(3, 2, 2)
     out, on = add_row(rows, 0, WHOLE, 4, 1, NONE, 0), add_row(rows, 1, WHOLE, 4, 1, NONE, 0)
+    rows.owner[:] = rows.crack  # one branch each
     field = np.full((5, 2), 3.0)
     reflect(field, rows, 0, 4, np.array([0]), np.array([2]), True)
     assert field[out].tolist() == [3.0, 3.0]
