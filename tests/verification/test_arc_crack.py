@@ -18,7 +18,7 @@ PLATE = """
 cramp: 1
 analysis: plane_strain
 materials:
-  steel: {law: elastic, density: 7800, E: 200e9, nu: 0.3}
+  steel: {law: elastic, density: 7800, E: 200 GPa, nu: 0.3}
 solver: {end_time: 0.9 ms, cfl: 0.8, damping: {particle: 50000}}
 fracture: {methods: [domain]}
 """

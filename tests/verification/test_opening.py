@@ -13,12 +13,12 @@ PLATE = """
 cramp: 1
 analysis: plane_strain
 grid: {cell: 5 mm}
-materials: {steel: {law: elastic, density: 7800, E: 200e9, nu: 0.3}}
+materials: {steel: {law: elastic, density: 7800, E: 200 GPa, nu: 0.3}}
 bodies:
   - {name: p, material: steel, shape: {type: rectangle, lower: [-0.1, -0.2], upper: [0.1, 0.2]}}
 loads:
-  - {type: traction, body: p, where: {y: 0.2}, traction: [0, 1e6], in_time: RAMP}
-  - {type: traction, body: p, where: {y: -0.2}, traction: [0, -1e6], in_time: RAMP}
+  - {type: traction, body: p, where: {y: 0.2}, traction: [0, 1 MPa], in_time: RAMP}
+  - {type: traction, body: p, where: {y: -0.2}, traction: [0, -1 MPa], in_time: RAMP}
 solver: {end_time: 0.35 ms, cfl: 0.8, damping: {particle: 50000}}
 """.replace("RAMP", "{type: ramp, until: 0.1 ms}")
 
