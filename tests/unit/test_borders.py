@@ -116,7 +116,7 @@ def test_what_lies_in_each_box(corners):
 
 
 @given(any_shape, per_cell)
-@settings(deadline=None, max_examples=120)
+@settings(deadline=None, max_examples=60)
 def test_mass_and_centre_of_a_body(shape, per_cell):
     assume(area(shape) > 0.01)
     model, state, _ = build_deck(GROUND, bodies=[body(shape, per_cell)])
