@@ -61,7 +61,7 @@ def build(deck: Deck) -> tuple[Model, State]:
     solid = (lattice, geometry, particles, blocks, paths)
     events = EventList(deck)
     conditions, obstacles = build_conditions(deck, events, *solid)
-    between = build_body_contact(deck, events, lattice.width)
+    between = build_body_contact(deck, events, particles, lattice.width)
     model = Model(
         lattice=lattice,
         geometry=geometry,
