@@ -20,7 +20,7 @@ LAYERS = (
     ("step",),
     ("deck", "output"),
     ("build",),
-    ("warm", "clock", "energy_balance"),
+    ("warm", "clock", "energy_balance", "pace"),
     ("simulation",),
     ("study",),
     ("commands", "streams"),
