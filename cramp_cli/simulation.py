@@ -17,6 +17,7 @@ from cramp_cli.cracks.tips import sample_tips
 from cramp_cli.energy_balance import Balance
 from cramp_cli.numerics.call import records_of_one_run
 from cramp_cli.output.summary import Summary
+from cramp_cli.pace import keep_pace
 from cramp_cli.scratch import make_scratch
 from cramp_cli.settling import Settling
 from cramp_cli.state.failure import NumericalFailure
@@ -60,7 +61,8 @@ def simulate(
         else:
             run.after_step()
         while state.time < model.end_time - 1e-9 * model.dt and not run.settling.has_ended:
-            step(model, state, run.scratch, run.watch)
+            run.model = keep_pace(model, state)
+            step(run.model, state, run.scratch, run.watch)
             run.let_cracks_grow()
             run.let_events_happen()
             run.after_step()
@@ -120,6 +122,7 @@ class _Run:
         self._tell_remarks()
         if self.state.step % HEALTH_EVERY == 0:
             check_health(self.model, self.state)
+            self.balance.glance(self.model, self.state)
             self._tell_strange_rows()
             self._tell_short_domains()
             self._tell_lost_faces()

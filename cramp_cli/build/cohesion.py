@@ -1,7 +1,7 @@
 """From the `traction` sections of a deck to traction laws with numbers, and to the crack points."""
 
 from functools import singledispatch
-from math import inf, sqrt
+from math import inf
 
 import numpy as np
 
@@ -17,6 +17,8 @@ from cramp_cli.cohesive.trilinear import Trilinear
 from cramp_cli.cracks.cohesion import Cohesion
 from cramp_cli.deck import cohesive as deck
 from cramp_cli.deck.deck import DeckError
+
+SWINGS = 8.0  # k/(rho h) that a step must bear beside the waves; steps of all of it hold, measured
 
 
 def build_cohesion(description, paths) -> Cohesion | None:
@@ -52,18 +54,21 @@ def _cover(description, paths, number, law) -> None:
     paths.law[points] = np.where(covered, law, -1)
 
 
-def largest_step(description) -> float:
-    """Return the time step at which the stiffest faces begin to swing up (s).
+def stiffness_rate(description) -> float:
+    """Return the square of the rate that steps must bear for the stiffest faces (1/s^2).
 
     A crack on a line of nodes: the nodes of either side have half a cell of mass rho h^2/2, the
-    faces a stiffness k h, so omega^2 = 4 k/(rho h); central differences bear 2/omega.
+    faces a stiffness k h, so omega^2 = 4 k/(rho h). Midway between two lines the nearer have an
+    eighth of a cell, omega^2 = 4.6 k/(rho h), and the faces move by the velocities of rows, which
+    react more than particles do: it swings up where the step is above 2/omega of 11 k/(rho h).
     """
     growth = description.propagation
     sections = [crack.traction for crack in description.cracks]
     sections += [growth.traction] if growth is not None else []
     k = max((stiffest(traction_law(one)) for one in sections if one is not None), default=0.0)
-    lightest = min(material.density for material in description.materials.values())
-    return sqrt(lightest * description.grid.cell / k) if k > 0.0 else inf
+    used = {body.material for body in description.bodies if body.material}
+    lightest = min(description.materials[name].density for name in used)
+    return SWINGS * k / (lightest * description.grid.cell)
 
 
 @singledispatch

@@ -2,9 +2,10 @@
 
 import numpy as np
 
-from cramp_cli.build.surface import outline_of
+from cramp_cli.build.surface import outline_of, outline_of_all, rings_of, surface_beside
 from cramp_cli.contact.laws import NORMALS, BodyContact, BodyLaws, RigidBody
 from cramp_cli.contact.outline import Outlines, make_outlines
+from cramp_cli.contact.surface import Surface
 from cramp_cli.cracks.contact import LAWS, ContactLaws
 from cramp_cli.deck.contact_groups import group_of_crack, groups_of_bodies, names_of_groups
 from cramp_cli.state.groups import Groups
@@ -38,7 +39,7 @@ def build_groups(deck) -> Groups:
     return Groups(of_body, np.array(cracks, dtype=np.int64))
 
 
-def build_body_contact(deck, events, width) -> BodyContact | None:
+def build_body_contact(deck, events, particles, width) -> BodyContact | None:
     """Return how the bodies touch; None if they do not.
 
     events: EventList that grows by theirs; width: of a cell (m)
@@ -65,7 +66,8 @@ def build_body_contact(deck, events, width) -> BodyContact | None:
     )
     tables = BodyLaws(laws[0].astype(np.int64), *(table.copy() for table in laws[1:]))
     outlines = build_outlines(deck, group, len(names), width)
-    return BodyContact(tuple(names), tables, NORMALS[section.normal], outlines, rigid)
+    surface = build_surface(deck, particles, width)
+    return BodyContact(tuple(names), tables, NORMALS[section.normal], outlines, surface, rigid)
 
 
 def build_outlines(deck, group, groups, width) -> Outlines:
@@ -73,13 +75,27 @@ def build_outlines(deck, group, groups, width) -> Outlines:
 
     group: of every body, by name; groups: how many; width: of a cell (m)
     """
-    from shapely import get_parts
-    from shapely.geometry.polygon import orient
-
     rings = [[] for _ in range(groups)]
     for n, body in enumerate(deck.bodies):
         if body.rigid:
-            for part in get_parts(outline_of(deck, n, width)):
-                ends = orient(part)  # the body is at the left of its rings
-                rings[group[body.name]] += [r.coords for r in (ends.exterior, *ends.interiors)]
+            rings[group[body.name]] += rings_of(outline_of(deck, n, width))
     return make_outlines(rings)
+
+
+def build_surface(deck, particles, width) -> Surface:
+    """Return the surface of the elastic bodies where their particles are next to it.
+
+    particles: of all bodies, at the start; width: of a cell (m)
+    """
+    foot, normal = np.zeros((2, *particles.position.shape))
+    if any(body.rigid for body in deck.bodies):
+        groups = groups_of_bodies(deck)
+        for n, body in enumerate(deck.bodies):
+            mine = particles.body == n
+            if body.rigid is None and mine.any():
+                alike = [k for k, group in enumerate(groups) if group == groups[n]]
+                outline, number = outline_of_all(deck, alike, width), particles.id[mine]
+                side = width / body.particles_per_cell
+                near = surface_beside(particles.position[mine], outline, side)
+                foot[number], normal[number] = near
+    return Surface(foot, normal)

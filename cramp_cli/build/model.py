@@ -1,8 +1,10 @@
 """From a deck to a model and the state at time zero: the only place that knows both."""
 
+from math import hypot, sqrt
+
 import numpy as np
 
-from cramp_cli.build.cohesion import build_cohesion, largest_step
+from cramp_cli.build.cohesion import build_cohesion, stiffness_rate
 from cramp_cli.build.conditions import build_conditions
 from cramp_cli.build.contact import build_body_contact, build_crack_laws, build_groups
 from cramp_cli.build.covered import crack_line
@@ -63,7 +65,7 @@ def build(deck: Deck) -> tuple[Model, State]:
     solid = (lattice, geometry, particles, half, blocks, paths)
     events = EventList(deck)
     conditions, obstacles = build_conditions(deck, events, *solid)
-    between = build_body_contact(deck, events, lattice.width)
+    between = build_body_contact(deck, events, particles, lattice.width)
     model = Model(
         lattice=lattice,
         geometry=geometry,
@@ -141,10 +143,10 @@ def build_lattice(deck: Deck) -> Lattice:
 
 
 def time_step(deck: Deck) -> float:
-    """Return the time step (s): that of the fastest wave or the stiffest faces, or the deck's."""
+    """Return the time step (s): that of the fastest wave and the stiffest faces, or the deck's."""
     used = {body.material for body in deck.bodies if body.material}
-    speeds = [wave_speed(deck.materials[name]) for name in used]
-    step = deck.solver.cfl * min(deck.grid.cell / max(speeds), largest_step(deck))
+    fastest = max(wave_speed(deck.materials[name]) for name in used)
+    step = deck.solver.cfl / hypot(fastest / deck.grid.cell, sqrt(stiffness_rate(deck)))
     step = min(step, deck.solver.dt or step)
     if deck.solver.end_time / step > MOST_STEPS:
         key = "cfl" if deck.solver.dt is None else "dt"

@@ -1,8 +1,9 @@
-"""A smooth surface for rigid bodies, whose particles may lie anywhere: nothing strains them.
+"""A smooth surface for bodies that touch, whatever steps their particles leave.
 
 Particles at the centres of parts of cells leave steps of half a cell along inclined and curved
-outlines. Those of a rigid body next to its outline are moved along its normal until the circle
-inscribed in them touches it, so contact sees the outline itself.
+outlines. Those of a rigid body may lie anywhere, for nothing strains them: next to its outline
+they are moved along its normal until the circle inscribed in them touches it. Those of an elastic
+body stay, and keep the point of its outline next to them.
 """
 
 import numpy as np
@@ -35,19 +36,49 @@ def outline_of(deck, number, width):
     surface. Nor is there one where a symmetry plane cuts it: there it goes on as its image.
     width: of a cell (m)
     """
-    from shapely import get_parts, snap, union_all
+    from shapely import get_parts, union_all
+
+    own = Regions(deck.bodies).left(number)
+    alike = [n for n, one in enumerate(deck.bodies) if one.rigid == deck.bodies[number].rigid]
+    wall = _joined(deck, [number, *(n for n in alike if n != number)], width)
+    mine = [part for part in get_parts(wall) if part.distance(own) == 0.0]
+    return with_images(union_all(mine), deck, SAME * width).simplify(SAME * width)
+
+
+def outline_of_all(deck, numbers, width):
+    """Return the outline of bodies of one solid and of their images; width: of a cell (m)."""
+    solid = [n for n in numbers if not deck.bodies[n].hole]
+    return with_images(_joined(deck, solid, width), deck, SAME * width).simplify(SAME * width)
+
+
+def _joined(deck, numbers, width):
+    """Return bodies as one region, without what later ones cover; width: of a cell (m)."""
+    from shapely import snap, union_all
 
     regions = Regions(deck.bodies)
-    own = regions.left(number)
-    alike = [
-        regions.left(n)
-        for n, other in enumerate(deck.bodies)
-        if n != number and other.rigid == deck.bodies[number].rigid
-    ]
-    near = SAME * width
-    wall = union_all([own, *(snap(one, own, near) for one in alike)])
-    mine = [part for part in get_parts(wall) if part.distance(own) == 0.0]
-    return with_images(union_all(mine), deck, near).simplify(near)
+    own, *others = (regions.left(n) for n in numbers)
+    return union_all([own, *(snap(one, own, SAME * width) for one in others)])
+
+
+def surface_beside(points, outline, reach: float):
+    """Return the way from each point to the outline next to it (n, 2), m, and the normal there.
+
+    points: (n, 2) m; reach: how far it may be (m). Both are zero for points farther away
+    """
+    from shapely import STRtree, linestrings
+    from shapely import points as spots
+
+    rings = rings_of(outline)
+    ends = np.concatenate([np.stack([ring[:-1], ring[1:]], axis=1) for ring in rings])
+    point, piece = STRtree(linestrings(ends)).query_nearest(
+        spots(points), max_distance=reach, all_matches=False
+    )
+    start, edge = ends[piece, 0], ends[piece, 1] - ends[piece, 0]
+    share = ((points[point] - start) * edge).sum(axis=1) / (edge * edge).sum(axis=1)
+    way, normal = np.zeros((2, *points.shape))
+    way[point] = start + np.clip(share, 0.0, 1.0)[:, None] * edge - points[point]
+    normal[point] = np.stack([edge[:, 1], -edge[:, 0]], axis=1) / np.hypot(*edge.T)[:, None]
+    return way, normal
 
 
 def rings_of(region) -> list:

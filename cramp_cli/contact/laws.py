@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from cramp_cli.contact.outline import Outlines
+from cramp_cli.contact.surface import Surface
 from cramp_cli.cracks.contact import ADHESIVE
 from cramp_cli.state.signal import Signal
 
@@ -41,6 +42,7 @@ class BodyContact:
     laws: BodyLaws
     normal: int  # AVERAGE, LARGER or LOGISTIC
     outlines: Outlines  # of rigid bodies, of which the normals beside them are
+    surface: Surface  # of elastic bodies, where rigid ones meet them
     rigid: tuple = ()  # of RigidBody
 
     @property

@@ -5,17 +5,17 @@ degrees where these were steps of half a cell (root mean square along planes at 
 whatever the method. So a normal is found from what the node and those around it see.
 """
 
-from math import sqrt
+from math import inf, sqrt
 
 from cramp_cli.contact.gradient import average_gradient, larger_gradient
 from cramp_cli.contact.laws import AVERAGE, LARGER
+from cramp_cli.contact.lean import lean_on_neighbours
 from cramp_cli.contact.logistic import logistic_normal
-from cramp_cli.contact.outline import outline_normal
-from cramp_cli.contact.separation import separation
-from cramp_cli.cracks.contact import GLUED
+from cramp_cli.contact.outline import piece_beside
+from cramp_cli.contact.separation import FLUSH, separation
+from cramp_cli.contact.surface import outline_gap
+from cramp_cli.cracks.contact import FRICTIONAL, GLUED, STICK
 from cramp_cli.numerics.kernel import kernel
-
-FLUSH = 1e-9  # cells; bodies this close touch, or round-off would tell which nodes of a face do
 
 
 @kernel
@@ -46,33 +46,58 @@ def _add_to_window(pairs, i, node):
 
 @kernel
 def find_normals(
-    pairs, clouds, stencil, particles, half, laws, kind, rigid, flat, lattice, strides
+    pairs, clouds, stencil, particles, sizes, laws, kind, rigid, flat, lattice, strides
 ):
     """Find normal and separation of all pairs; a pair without a normal is left apart.
 
-    half: (n, 2) half axes of the particle of each number (m); kind: of fitted normals; rigid:
-    (groups,) 1 for rigid bodies, their outlines, and which way they have gone (groups, dim), m;
-    flat: (nodes, dim) 1 along the normals of symmetry planes through a node, along which no normal
-    points; lattice: lower corner (m) and width (m)
+    sizes: half axes of the particle of each number (n, 2), m, and the surface of elastic bodies;
+    kind: of fitted normals; rigid: (groups,) 1 for rigid bodies, their outlines, and which way they
+    have gone (groups, dim), m; flat: (nodes, dim) 1 along the normals of symmetry planes through a
+    node, along which no normal points; lattice: lower corner (m) and width (m)
     """
-    lower, width = lattice
+    (lower, width), (half, surface) = lattice, sizes
     for i in range(pairs.used[0]):
         node, a, b = pairs.node[i], pairs.row[i, 0], pairs.row[i, 1]
-        pairs.normal[i, :], pairs.gap[i] = 0.0, width
+        pairs.normal[i, :], pairs.gap[i], pairs.least[i, :] = 0.0, width, 0.0
         if laws.kind[pairs.group[i, 0], pairs.group[i, 1]] == GLUED:
             continue
         place = (lower[0] + width * (node % strides[1]), lower[1] + width * (node // strides[1]))
         x = particles.position
-        nx, ny = outline_normal(clouds, stencil, x, pairs, i, place, width, *rigid)
-        if nx == 0.0 and ny == 0.0:
+        s, nx, ny = piece_beside(clouds, stencil, x, pairs, i, place, width, *rigid)
+        if s < 0:
             nx, ny = fitted_normal(clouds, stencil, x, pairs, i, place, width, kind, strides)
         nx, ny = nx * (1 - flat[node, 0]), ny * (1 - flat[node, 1])
         size = sqrt(nx * nx + ny * ny)
         if size > 0.0:
-            nx, ny = nx / size, ny / size
-            pairs.normal[i, 0], pairs.normal[i, 1] = nx, ny
-            apart = separation(clouds, stencil, particles, half, a, b, nx, ny)
+            pairs.normal[i, 0], pairs.normal[i, 1] = nx / size, ny / size
+            apart = inf
+            if s >= 0:
+                around = (clouds, stencil, particles, surface, pairs)
+                apart = gap_beside(*around, i, (*place, width), flat, s, laws, rigid, strides)
+            if apart == inf:
+                n = (nx / size, ny / size)
+                apart = separation(clouds, stencil, particles, half, a, b, *n)
             pairs.gap[i] = apart - FLUSH * width
+    lean_on_neighbours(pairs, rigid[0], flat, width, strides)
+
+
+@kernel
+def gap_beside(clouds, stencil, particles, surface, pairs, i, place, flat, s, laws, rigid, strides):
+    """Return how far the elastic body of pair i is from piece s of the rigid one's outline (m).
+
+    The pair keeps where along the surface that is least.
+    """
+    (flags, outlines, ways), node = rigid, pairs.node[i]
+    me, sign = (1, -1.0) if flags[pairs.group[i, 0]] else (0, 1.0)
+    n = (sign * pairs.normal[i, 0], sign * pairs.normal[i, 1])
+    group, row = pairs.group[i, 1 - me], pairs.row[i, me]
+    on, way = flat[node, 0] + flat[node, 1] > 0, (ways[group, 0], ways[group, 1])
+    gap, least, narrow, turn = outline_gap(
+        clouds, stencil, particles, surface, row, place, on, n, s, outlines, way
+    )
+    if laws.kind[pairs.group[i, 0], pairs.group[i, 1]] in (FRICTIONAL, STICK):
+        pairs.least[i, 0], pairs.least[i, 1], pairs.least[i, 2] = least / place[2], narrow, turn
+    return gap
 
 
 @kernel

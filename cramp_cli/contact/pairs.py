@@ -20,6 +20,9 @@ class Pairs(NamedTuple):
     around: np.ndarray  # (pairs,) how many of them
     normal: np.ndarray  # (pairs, dim) unit vector from a to b
     gap: np.ndarray  # (pairs,) negative where the bodies overlap (m)
+    least: np.ndarray  # (pairs, 3) beside a rigid body: way to the least gap (cells), it (m), turn
+    beside: np.ndarray  # (pairs,) row of the next node that shares what the elastic one gets, or -1
+    lean: np.ndarray  # (pairs,) the share of that row
     state: np.ndarray  # (pairs,) OPEN, SLIDING or STUCK
     bond: np.ndarray  # (pairs,) PARTED or JOINED, with the law `adhesive` (contact/adhesion.py)
     used: np.ndarray  # (1,) pairs in use, or wanted if there are more
@@ -36,6 +39,9 @@ def make_pairs(count: int, nodes: int, dim: int) -> Pairs:
         around=np.zeros(count, dtype=np.int64),
         normal=np.zeros((count, dim)),
         gap=np.zeros(count),
+        least=np.zeros((count, 3)),
+        beside=np.full(count, -1, dtype=np.int64),
+        lean=np.zeros(count),
         state=np.zeros(count, dtype=np.int64),
         bond=np.zeros(count, dtype=np.int64),
         used=np.zeros(1, dtype=np.int64),
@@ -86,3 +92,4 @@ def _enter(pairs, a, b, ga, gb, node):
         pairs.row[n, 0], pairs.row[n, 1], pairs.node[n] = a, b, node
         pairs.group[n, 0], pairs.group[n, 1] = ga, gb
         pairs.normal[n, :], pairs.gap[n], pairs.state[n] = 0.0, 0.0, OPEN
+        pairs.beside[n], pairs.lean[n] = -1, 0.0

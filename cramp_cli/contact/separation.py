@@ -5,6 +5,8 @@ from math import inf, sqrt
 from cramp_cli.contact.clouds import particle_of
 from cramp_cli.numerics.kernel import kernel
 
+FLUSH = 1e-9  # cells; bodies this close touch, or round-off would tell which nodes of a face do
+
 
 @kernel
 def radius(particles, p, half, nx, ny):

@@ -79,12 +79,13 @@ def touch_one(grid, pairs, i, clouds, laws, bodies, strides, step, stage):
         dp, towards = momentum_wanted(grid, pairs, i, bodies, strides)
         kind = adhere(pairs, i, laws, clouds, dp, towards, width, dt, stage)
     law = (kind, laws.mu[ga, gb], laws.mu_static[ga, gb])
+    lean = (pairs.beside[i], pairs.lean[i])
     if rigid[gb]:
         v = vector(strides, velocity, gb)
-        state, work, given = push(grid, a, v, n, gap, *law, strides, dt, stage)
+        state, work, given = push(grid, a, lean, v, n, gap, *law, strides, dt, stage)
     elif rigid[ga]:
         v = vector(strides, velocity, ga)
-        state, work, given = push(grid, b, v, times(n, -1.0), gap, *law, strides, dt, stage)
+        state, work, given = push(grid, b, lean, v, times(n, -1.0), gap, *law, strides, dt, stage)
         given = times(given, -1.0)
     else:
         state, work, given = touch_pair(grid, a, b, n, gap, *law, strides, dt, stage)
@@ -112,25 +113,54 @@ def momentum_to_follow(grid, row, velocity, strides):
 
 
 @kernel
-def push(grid, row, velocity, normal, gap, kind, mu, mu_static, strides, dt, stage):
+def push(grid, row, lean, velocity, normal, gap, kind, mu, mu_static, strides, dt, stage):
     """Let a row touch a rigid body; return what it does, the work of friction (J), its momentum.
 
-    A rigid body is a partner of infinite mass. velocity: its own (m/s); normal: towards it
+    A rigid body is a partner of infinite mass. lean: the row of the next node if they touch in
+    between, and its share; velocity: its own (m/s); normal: towards it
+
+    Between two nodes moves what is (1 - s) v_row + s v_next; a momentum there is shared alike
     """
-    mass, momentum, force = grid.mass[row], grid.momentum, grid.force
-    dp = momentum_to_follow(grid, row, velocity, strides)
-    pushed = times(vector(strides, force, row), -dt)
-    dpn = dot(dp, normal)
-    given, state = impulse(kind, mu, mu_static, dp, normal, dpn, gap)
-    for d in range(len(strides)):
-        momentum[row, d] += given[d]
-        if stage == FIRST:
-            grid.saved[row, d] = momentum[row, d]
-        elif stage == UPDATE:
-            force[row, d] += given[d] / dt
+    nxt, mass, own, share = shares(grid, row, lean)
+    v = between(grid.momentum, grid.mass, row, nxt, own, share, strides)
+    pull = between(grid.force, grid.mass, row, nxt, own, share, strides)
+    dp, pushed = times(plus(velocity, -1.0, v), mass), times(pull, -mass * dt)
+    given, state = impulse(kind, mu, mu_static, dp, normal, dot(dp, normal), gap)
+    give(grid, row, own, given, strides, dt, stage)
+    if share > 0.0:
+        give(grid, nxt, share, given, strides, dt, stage)
     rubbing = kind == FRICTIONAL and state != OPEN and stage == UPDATE
     work = work_of_friction(dp, pushed, given, normal, mass) if rubbing else 0.0
     return state, work, given
+
+
+@kernel
+def shares(grid, row, lean):
+    """Return the next row, the mass that a place between two rows feels (kg), and both shares."""
+    nxt, share = lean
+    if nxt < 0 or grid.mass[nxt] <= 0.0:
+        return row, grid.mass[row], 1.0, 0.0
+    own = 1.0 - share
+    return nxt, 1.0 / (own * own / grid.mass[row] + share * share / grid.mass[nxt]), own, share
+
+
+@kernel
+def between(values, mass, row, nxt, own, share, strides):
+    """Return values per mass, (rows, dim), at a place between two rows that have these shares."""
+    first = times(vector(strides, values, row), own / mass[row])
+    return plus(first, share / mass[nxt], vector(strides, values, nxt))
+
+
+@kernel
+def give(grid, row, share, given, strides, dt, stage):
+    """Give a row its share of a momentum, and what a pass of contact keeps of it."""
+    momentum, force = grid.momentum, grid.force
+    for d in range(len(strides)):
+        momentum[row, d] += share * given[d]
+        if stage == FIRST:
+            grid.saved[row, d] = momentum[row, d]
+        elif stage == UPDATE:
+            force[row, d] += share * given[d] / dt
 
 
 @kernel
@@ -140,12 +170,27 @@ def touch_increments(increment, grid, pairs, rigid, strides):
     increment: (rows, dim), m/s; as in cracks/contact.py, a rigid body has none
     """
     for i in range(pairs.used[0]):
-        a, b = pairs.row[i, 0], pairs.row[i, 1]
-        ma, mb = grid.mass[a], grid.mass[b]
-        n, state = vector(strides, pairs.normal, i), pairs.state[i]
+        a, b, state = pairs.row[i, 0], pairs.row[i, 1], pairs.state[i]
+        n, lean = vector(strides, pairs.normal, i), (pairs.beside[i], pairs.lean[i])
+        if state == OPEN:
+            continue
         if rigid[pairs.group[i, 0]]:
-            ma, mb = 1.0, 0.0
+            stop_increment(increment, grid, b, lean, n, state == SLIDING, strides)
         elif rigid[pairs.group[i, 1]]:
-            ma, mb = 0.0, 1.0
-        if state != OPEN:
-            share_between(increment, a, b, ma, mb, n, state == SLIDING, strides)
+            stop_increment(increment, grid, a, lean, n, state == SLIDING, strides)
+        else:
+            share_between(increment, a, b, grid.mass[a], grid.mass[b], n, state == SLIDING, strides)
+
+
+@kernel
+def stop_increment(increment, grid, row, lean, n, sliding, strides):
+    """Take from rows (and the next) the increment (m/s) where they touch a rigid body."""
+    nxt, mass, own, share = shares(grid, row, lean)
+    left = times(vector(strides, increment, row), own)
+    left = plus(left, share, vector(strides, increment, nxt))
+    if sliding:
+        left = times(n, dot(left, n))
+    for d in range(len(strides)):
+        increment[row, d] -= own * mass / grid.mass[row] * left[d]
+        if share > 0.0:
+            increment[nxt, d] -= share * mass / grid.mass[nxt] * left[d]

@@ -72,3 +72,16 @@ FIELDS = {
     "dissipated_energy": lambda p: from_history(p, DISSIPATED),
     "plastic_strain": lambda p: from_history(p, PLASTIC_STRAIN),
 }
+
+
+@kernel
+def fastest(velocity):
+    """Return the square of the largest of velocities (n, dim), (m/s)^2; infinite without number."""
+    largest = 0.0
+    for p in range(len(velocity)):
+        square = 0.0
+        for d in range(velocity.shape[1]):
+            square += velocity[p, d] * velocity[p, d]
+        if not square <= largest:
+            largest = square if square == square else np.inf
+    return largest

@@ -107,8 +107,8 @@ def test_the_outline_of_a_body_has_corners_and_sides():
 def test_a_thin_plate_has_the_normal_of_the_side_that_is_touched(below):
     """A body above it; a node above the plate, in its lower half, and below it."""
     outlines = make_outlines([[], PLATE])
-    found, x, y = nearest_piece(outlines, 1, 2.0, 0.5 - below, 3.0, 0.51)
-    assert (found, x, y) == (2, 2.0, 0.5)
+    found, along = nearest_piece(outlines, 1, 2.0, 0.5 - below, 3.0, 0.51)
+    assert (found, along) == (2, 2.0)
 
 
 @pytest.mark.parametrize("wall_first", [True, False])

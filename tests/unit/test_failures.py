@@ -119,3 +119,30 @@ def test_a_pressure_that_keeps_a_crack_closed_is_no_failure():
     assert books.largest == pytest.approx((4 * 1e-3) ** 2 / (2 * 3))
     assert moving < 0.01 * books.largest
     assert abs(books.error) < 0.01
+
+
+@pytest.mark.parametrize(("step", "error", "fails"), [
+    (1, -0.45, False), (1, 0.51, True), (10, 0.45, False), (10, -1e5, True), (25, 0.19, False),
+    (25, 0.21, True), (50, 0.11, True), (1, np.nan, True),
+])  # fmt: skip
+def test_limits_hold_from_the_first_step(step, error, fails):
+    """Wider at first: 10 % times 50 over the steps, but never more than half of the energy."""
+    _, state, _ = build_deck(BLOCK)
+    state.step = step
+    books = Balance(state, read(BLOCK).solver)
+    books.error = error
+    if not fails:
+        books.judge(state, Ears())
+        return
+    with pytest.raises(NumericalFailure, match="off by"):
+        books.judge(state, Ears())
+
+
+def test_a_glance_leaves_the_balance_as_it_was():
+    model, state, _ = build_deck(BLOCK)
+    books = Balance(state, read(BLOCK).solver)
+    state.particles.velocity[:, 0] = 1.0  # from nowhere
+    before = dict(vars(books))
+    with pytest.raises(NumericalFailure, match="off by 100 %"):
+        books.glance(model, state)
+    assert vars(books) == before

@@ -20,7 +20,7 @@ LAYERS = (
     ("step",),
     ("deck", "output"),
     ("build",),
-    ("warm", "clock", "energy_balance", "settling"),
+    ("warm", "clock", "energy_balance", "settling", "pace"),
     ("simulation",),
     ("study",),
     ("commands", "streams"),

@@ -122,10 +122,10 @@ def test_forces_of_faces_leave_momentum_as_it_is():
 
 
 def test_a_stiff_law_shortens_the_step():
-    """omega^2 = 4 k/(rho h); a step of twice the limit blows up, the chosen one does not."""
+    """omega^2 is below 8 k/(rho h) beside waves, wherever the faces lie (test_stiff_faces.py)."""
     stiff = {"law": "elastic", "normal": 1e14}
     model, state, scratch = build_deck(BLOCK, **cut(stiff) | {"boundary": []})
-    assert model.dt == pytest.approx(0.5 * np.sqrt(1000.0 * 1e-3 / 1e14), rel=1e-12)
+    assert model.dt == pytest.approx(0.5 * np.sqrt(1000.0 * 1e-3 / 8e14), rel=1e-3)
     up = state.particles.position[:, 1] > MIDDLE
     state.particles.velocity[up] = (0.0, 1e-3)
     start = 0.5 * state.particles.mass @ (state.particles.velocity**2).sum(axis=1)
