@@ -15,6 +15,8 @@ from cramp_cli.schema.section import Wrong
 MEETS = 0.1  # cells; an end this near to another crack lies on it
 SURFACE = 0.5  # cells; a ligament shorter than this is none
 AT = 0.1  # cells; a `tip` nearer to the surface than this is at it
+DEEP = 1.0  # cells; an `edge` further inside than this is not at the surface
+ROUND_OFF = 1e-6
 BESIDE = 0.5  # cells beside a symmetry plane; there a crack in the plane is looked at
 KEYS = (("start", 0, 1), ("end", -1, -2))  # key, place of the end in the line, of the one before
 
@@ -70,7 +72,7 @@ def _contradiction(word: str, spot: Spot, cell: float) -> str:
     if spot.plane:
         fits = word == "edge"
         return "" if fits else f"'{word}' lies on the symmetry plane {spot.plane}; write 'edge'"
-    if word == "edge" and spot.depth > SURFACE * cell:
+    if word == "edge" and spot.depth > (1.0 + ROUND_OFF) * DEEP * cell:
         return f"'edge' is {away} inside the body, and would cut on from there; write 'tip'"
     outside = spot.depth < -AT * cell
     if word != "edge" and spot.depth < AT * cell and (word == "tip" or not outside):
