@@ -27,10 +27,10 @@ class Balance:
         kinetic, stored, plastic = sum_energies(state.particles)
         books = state.books
         damping, friction = float(books.damping[0]), float(books.friction[0])
-        fracture = float(books.fracture[0])
+        fracture, impact = float(books.fracture[0]), float(books.impact[0])
         absorbed, work = float(books.absorbed[0]), float(books.external[0])
         held, parting = cohesive_energies(model, state)
-        taken = friction + plastic + damping + absorbed + parting + fracture
+        taken = friction + max(impact, 0.0) + plastic + damping + absorbed + parting + fracture
         spent = kinetic + stored + held + taken
         of_load = energy_of_pressures(model, state)
         self.largest = max(self.largest, kinetic + stored + held, abs(work), taken, of_load)
@@ -46,6 +46,7 @@ class Balance:
             "cohesive_stored": held,
             "cohesive_energy": parting,
             "friction_energy": friction,
+            "impact_energy": impact,
             "plastic_energy": plastic,
             "damping_energy": damping,
             "absorbed_energy": absorbed,
@@ -55,9 +56,12 @@ class Balance:
             "momentum_y": float(total[1]),
         }
 
-    def judge(self, state, reporter) -> None:
-        """Warn once when the balance is off by more than the first limit, stop at the second."""
-        if state.step < SETTLED:
+    def judge(self, state, reporter, *, at_end=False) -> None:
+        """Warn once when the balance is off by more than the first limit, stop at the second.
+
+        at_end: of a run, which is judged however short it is
+        """
+        if state.step < SETTLED and not at_end:
             return
         where = f"step {state.step}, t = {state.time:.6g} s"
         text = f"{where}: the energy balance is off by {100 * self.error:.3g} %"

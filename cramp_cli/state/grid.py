@@ -42,6 +42,7 @@ class Rows(NamedTuple):
     side: np.ndarray  # (extra, 2) side of the row's particles: +1 above, -1 below the crack
     normal: np.ndarray  # (extra, 2, dim) sum of crossed segments turned from above to below, m
     touching: np.ndarray  # (extra, 2) open, sliding or stuck to the row across each crack
+    impulse: np.ndarray  # (extra, 2, 5, dim) of contact in a step: cracks/contact.py
     tip: np.ndarray  # (nodes,) tip (2 * crack + end) that is near a node, or -1
     tip_side: np.ndarray  # (nodes,) side of that crack on which the node lies
     tip_segment: np.ndarray  # (nodes,) segment of the crack nearest to the node
@@ -49,8 +50,10 @@ class Rows(NamedTuple):
     tip_cut: np.ndarray  # (nodes, 2) the same times the square of the cut share; kg
     tip_split: np.ndarray  # (nodes,) whether it sees a particle that is cut
     tipped: np.ndarray  # (nodes,) nodes that have a tip
-    displacement: np.ndarray  # (rows, dim) mass-weighted displacement at shared nodes, kg m
-    place: np.ndarray  # (rows, dim) mass-weighted position at shared nodes, kg m
+    weight: np.ndarray  # (rows,) sum S m at shared nodes, without images, kg
+    displacement: np.ndarray  # (rows, dim) the same times displacement, kg m
+    place: np.ndarray  # (rows, dim) times position, kg m
+    turn: np.ndarray  # (rows, 2) times F_xx + F_yy, F_yx - F_xy, kg
 
 
 def make_grid(node_count: int, dim: int, extra: int) -> tuple[Grid, Rows]:
@@ -74,6 +77,7 @@ def make_grid(node_count: int, dim: int, extra: int) -> tuple[Grid, Rows]:
         side=np.zeros((extra, 2), dtype=np.int64),
         normal=np.zeros((extra, 2, dim)),
         touching=np.zeros((extra, 2), dtype=np.int64),
+        impulse=np.zeros((extra, 2, 5, dim)),
         tip=np.full(node_count, -1, dtype=np.int64),
         tip_side=np.zeros(node_count, dtype=np.int64),
         tip_segment=np.zeros(node_count, dtype=np.int64),
@@ -81,7 +85,9 @@ def make_grid(node_count: int, dim: int, extra: int) -> tuple[Grid, Rows]:
         tip_cut=np.zeros((node_count, 2)),
         tip_split=np.zeros(node_count, dtype=np.bool_),
         tipped=np.zeros(node_count, dtype=np.int64),
+        weight=np.zeros(rows),
         displacement=vectors(),
         place=vectors(),
+        turn=np.zeros((rows, 2)),
     )
     return grid, fields
