@@ -31,10 +31,10 @@ class Balance:
         kinetic, stored, plastic = sum_energies(state.particles)
         books = state.books
         damping, friction = float(books.damping[0]), float(books.friction[0])
-        fracture = float(books.fracture[0])
+        fracture, impact = float(books.fracture[0]), float(books.impact[0])
         absorbed, work = float(books.absorbed[0]), float(books.external[0])
         held, parting = cohesive_energies(model, state)
-        taken = friction + plastic + damping + absorbed + parting + fracture
+        taken = friction + max(impact, 0.0) + plastic + damping + absorbed + parting + fracture
         spent = kinetic + stored + held + taken
         of_load = energy_of_pressures(model, state)
         self.largest = max(self.largest, kinetic + stored + held, abs(work), taken, of_load)
@@ -51,6 +51,7 @@ class Balance:
             "cohesive_stored": held,
             "cohesive_energy": parting,
             "friction_energy": friction,
+            "impact_energy": impact,
             "plastic_energy": plastic,
             "damping_energy": damping,
             "absorbed_energy": absorbed,
@@ -67,18 +68,19 @@ class Balance:
         if not abs(now.error) <= max(WILD, self.limits.stop):
             raise now.failure(state)
 
-    def judge(self, state, reporter) -> None:
+    def judge(self, state, reporter, *, at_end=False) -> None:
         """Warn once when the balance is off by more than the first limit, stop at the second.
 
         The first load meets a body at rest: what the first step books otherwise than the solid
         feels it stays, and its share falls while energy comes in. So the limit is that of the deck
         times SETTLED over the steps so far, but for gains and losses that no first step explains.
+        at_end: of a run, which is judged however short it is
         """
         steps = max(state.step - self.begun, 1)
-        start = min(WILD, self.limits.stop * SETTLED / steps)
+        start = 0.0 if at_end else min(WILD, self.limits.stop * SETTLED / steps)
         if not abs(self.error) <= max(self.limits.stop, start):
             raise self.failure(state)
-        if steps >= SETTLED and abs(self.error) > self.limits.warn and not self.warned:
+        if (at_end or steps >= SETTLED) and abs(self.error) > self.limits.warn and not self.warned:
             self.warned = True
             reporter.message("warning", self._text(state))
 

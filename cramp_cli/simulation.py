@@ -28,7 +28,8 @@ from cramp_cli.step import step
 from cramp_cli.transfer.sums import locate_particles
 
 HEALTH_EVERY = 20  # steps
-DUES = ("history_due", "tips_due", "frame_due")
+DUES = ("history_due", "tips_due", "frame_due", "balance_due")
+JUDGED = 50  # times that the energy balance of a run is judged, at least
 MOST_REMARKS = 20  # of single particles
 COMPILING = 2.0  # s; a first step that takes longer has compiled kernels
 
@@ -94,7 +95,8 @@ class _Run:
         self.tips_due = Due(deck.fracture.every, model.dt)
         self.frame_due = Due(deck.output.every, model.dt)
         self.means = TipMeans(model) if model.fracture.means else None
-        self.tips, self.written = [], set()
+        self.balance_due = Due(model.end_time / JUDGED, model.dt)
+        self.tips, self.written, self.judged = [], set(), -1
         self.told, self.remarks_told = set(), 0
         list_cracks(model, state, self.scratch)
         locate_particles(model, state, self.scratch)
@@ -131,6 +133,8 @@ class _Run:
             next_row = min(self.tips_due.next, self.model.end_time)
             self.means.after_step(self.model, self.state, self.scratch, next_row)
         self._write(self.history_due, self.tips_due, self.frame_due)
+        if self.balance_due(self.state.time):
+            self._judge_balance()
         if self.keeper:
             self.keeper.after_step(self.state, self.remember)
 
@@ -188,6 +192,7 @@ class _Run:
         """Write the end of the run, and tell whether it has come to rest."""
         check_health(self.model, self.state)
         self._write(*(lambda time: True,) * 3)
+        self.balance.judge(self.state, self.reporter, at_end=True)
         self.outputs.last_paths(path_rows(self.model, self.state))
         if self.model.rest.stops:
             level = "info" if self.settling.has_ended else "warning"
@@ -205,6 +210,7 @@ class _Run:
             books = self.balance.row(self.model, self.state)
             self.outputs.history(books | self._reactions() | self._contact_forces())
             self.balance.judge(self.state, self.reporter)
+            self.judged = self.state.step
         if self.model.crack_names and tips_due(time) and self._first("tips"):
             rows = sample_tips(self.model, self.state, self.scratch)
             if self.means:
@@ -214,6 +220,13 @@ class _Run:
             self.outputs.tips(self.tips)
         if frame_due(time) and self._first("frame"):
             self._frame()
+
+    def _judge_balance(self) -> None:
+        """Judge the energy balance between two rows of the history."""
+        if self.judged < self.state.step:
+            self.balance.row(self.model, self.state)
+            self.balance.judge(self.state, self.reporter)
+            self.judged = self.state.step
 
     def _first(self, what) -> bool:
         """Return True once per step."""

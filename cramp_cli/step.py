@@ -19,13 +19,16 @@ from cramp_cli.boundary.conditions import (
 )
 from cramp_cli.contact.bodies import find_pairs, move_rigid_bodies, touch_bodies
 from cramp_cli.cracks.cohesion import book_pressures, draw_faces
-from cramp_cli.cracks.contact import FIRST, LAST, UPDATE, touch
+from cramp_cli.cracks.contact import FIRST, LAST, UPDATE
+from cramp_cli.cracks.contact_books import AFTER, BEFORE, PUSHED
 from cramp_cli.cracks.fields import (
     find_openings,
     find_rows,
     follow_behind_tips,
     list_cracks,
     move_paths,
+    note_faces,
+    touch_faces,
 )
 from cramp_cli.cracks.release import resist_opening
 from cramp_cli.cracks.tip_filter import calm_running_tips, leave_to_tips, note_near_tips
@@ -37,7 +40,7 @@ from cramp_cli.transfer.on_grid import advance_momentum, find_acceleration, find
 
 def step(model, state, scratch, watch) -> None:
     """Advance `state` by one time step; `watch(title)` times the paragraphs."""
-    dt, conditions, laws = model.dt, model.conditions, model.contact
+    dt, conditions = model.dt, model.conditions
 
     with watch("1 where the particles are"):
         list_cracks(model, state, scratch)
@@ -47,17 +50,18 @@ def step(model, state, scratch, watch) -> None:
         find_rows(model, state, scratch)
         find_pairs(model, state, scratch)
         find_openings(model, state, scratch)
-    grid, rows, count = scratch.grid, scratch.rows, scratch.row_count
+    grid, count = scratch.grid, scratch.row_count
     state.reactions[:] = 0.0
 
     with watch("3 mass and momentum to the grid"):
         sums.sum_mass_and_momentum(model, state, scratch)
         meet_rows(conditions, scratch, state, model.lattice.width)
         reflect_mass_and_momentum(conditions, scratch, state)
+        note_faces(model, scratch, grid.momentum, BEFORE)
         follow_behind_tips(model, scratch, grid.momentum)
         grid.saved[:count] = grid.momentum[:count]
         touch_bodies(model, state, scratch, FIRST)
-        touch(grid, rows, laws, model.strides, dt, FIRST)
+        touch_faces(model, state, scratch, FIRST)
         repeat_images(conditions, scratch, grid.momentum, grid.saved)
 
     with watch("4 strain before the forces"):  # all of the step in USF, half in USAVG, none in USL
@@ -74,13 +78,14 @@ def step(model, state, scratch, watch) -> None:
         draw_faces(model, state, scratch)
         reflect_forces(conditions, scratch, state)
         absorb_waves(model, scratch, state)
+        note_faces(model, scratch, grid.force, PUSHED)
         follow_behind_tips(model, scratch, grid.force)
 
     with watch("6 equation of motion in every velocity field"):
         hold_forces(conditions, scratch, state, dt)
         advance_momentum(grid, count, model.strides, dt)
         touch_bodies(model, state, scratch, UPDATE)
-        state.books.friction[0] += touch(grid, rows, laws, model.strides, dt, UPDATE)
+        touch_faces(model, state, scratch, UPDATE)
         resist_opening(model, state, scratch)
         repeat_images(conditions, scratch, grid.momentum, grid.force)
         hold_after_contact(conditions, scratch, state, dt)
@@ -104,9 +109,10 @@ def step(model, state, scratch, watch) -> None:
             grid.momentum[:count] = grid.saved[:count]  # of the moved particles
             find_openings(model, state, scratch)
             reflect_sum(conditions, scratch, grid.momentum)
+            note_faces(model, scratch, grid.momentum, AFTER)
             follow_behind_tips(model, scratch, grid.momentum)
             touch_bodies(model, state, scratch, LAST)
-            touch(grid, rows, laws, model.strides, dt, LAST)
+            touch_faces(model, state, scratch, LAST)
             repeat_images(conditions, scratch, grid.momentum)
             hold_momenta(conditions, scratch, state)
         book_tractions(model, scratch, state)

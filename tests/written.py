@@ -57,7 +57,7 @@ def write_moment(outputs, step, time, K_I, status):
             **dict.fromkeys(
                 ("fracture_energy", "friction_energy", "plastic_energy", "damping_energy"), 0.0
             ),
-            **dict.fromkeys(("cohesive_stored", "cohesive_energy"), 0.0),
+            **dict.fromkeys(("impact_energy", "cohesive_stored", "cohesive_energy"), 0.0),
             **energies,
         }
     )

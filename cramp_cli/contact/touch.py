@@ -16,11 +16,10 @@ from cramp_cli.cracks.contact import (
     SLIDING,
     UPDATE,
     impulse,
-    momentum_to_meet,
     share_between,
     touch_pair,
-    work_of_friction,
 )
+from cramp_cli.cracks.contact_books import is_light, momentum_to_meet
 from cramp_cli.numerics.kernel import kernel
 from cramp_cli.numerics.vector import (
     dot,
@@ -88,7 +87,13 @@ def touch_one(grid, pairs, i, clouds, laws, bodies, strides, step, stage):
         state, work, given = push(grid, b, lean, v, times(n, -1.0), gap, *law, strides, dt, stage)
         given = times(given, -1.0)
     else:
-        state, work, given = touch_pair(grid, a, b, n, gap, *law, strides, dt, stage)
+        pushed = times(momentum_to_meet(grid, a, b, strides, grid.force), dt)
+        dp = momentum_to_meet(grid, a, b, strides, grid.momentum)
+        state, given = touch_pair(grid, a, b, n, gap, law, strides, dt, stage)
+        rubbing = kind == FRICTIONAL and state != OPEN and stage == UPDATE
+        if rubbing and not is_light(grid.mass, a, b):  # what holds next to nothing has no velocity
+            reduced = grid.mass[a] * (grid.mass[b] / (grid.mass[a] + grid.mass[b]))
+            work = work_of_friction(dp, pushed, given, n, reduced)
     pairs.state[i] = max(pairs.state[i], state)
     return work, given
 
@@ -194,3 +199,15 @@ def stop_increment(increment, grid, row, lean, n, sliding, strides):
         increment[row, d] -= own * mass / grid.mass[row] * left[d]
         if share > 0.0:
             increment[nxt, d] -= share * mass / grid.mass[nxt] * left[d]
+
+
+@kernel
+def work_of_friction(dp, pushed, given, normal, reduced):
+    """Return what friction takes (J): the tangential momentum given times the mean slip.
+
+    Mean of the slip at the start of the step, before the other forces have pushed the rows apart by
+    `pushed` (N s), and at its end: with the velocities of the two strain updates, as for tractions.
+    """
+    tangential = plus(given, -dot(given, normal), normal)
+    slip = plus(plus(dp, -0.5, pushed), -0.5, given)
+    return dot(tangential, slip) / reduced

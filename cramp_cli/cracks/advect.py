@@ -1,23 +1,10 @@
 """Cracks move with the solid: each surface with the rows of its side, the plane with their mean."""
 
+from cramp_cli.cracks.carry import carried
 from cramp_cli.cracks.view import look_from, side_normal
 from cramp_cli.numerics.kernel import inlined_kernel, kernel
 
 LARGEST_STEP = 0.5  # a surface that would move further in one step (cells) stays
-
-
-@inlined_kernel
-def surface_motion(seen, count, total, grid):
-    """Return the velocity and the acceleration of a surface that sees `count` rows."""
-    velocity, acceleration = grid.velocity, grid.acceleration
-    vx, vy, ax, ay = 0.0, 0.0, 0.0, 0.0
-    for e in range(count):
-        row, w = seen.row[e], seen.weight[e]
-        vx += w * velocity[row, 0]
-        vy += w * velocity[row, 1]
-        ax += w * acceleration[row, 0]
-        ay += w * acceleration[row, 1]
-    return (vx / total, vy / total), (ax / total, ay / total)
 
 
 @inlined_kernel
@@ -46,7 +33,7 @@ def move_surface(seen, paths, k, crack, side, normal, cut, grid, solid, place, d
     if total <= 0.0:
         old[k, 0] = old[k, 1] = 0.0
         return False, 0.0, 0.0
-    v, a = surface_motion(seen, count, total, grid)
+    v, a = carried(seen, count, grid.velocity), carried(seen, count, grid.acceleration)
     return surface_step(surface, old, k, v, a, place[1], dt)
 
 

@@ -15,7 +15,8 @@ from cramp_cli.cracks.segments import HAIR, ON_CRACK
 from cramp_cli.cracks.tip_nodes import cut_share
 from cramp_cli.cracks.tip_shares import far_share
 from cramp_cli.numerics.kernel import inlined_kernel, kernel
-from cramp_cli.shapes.shape import node_steps, offsets, place_of, sees
+from cramp_cli.numerics.vector import pick
+from cramp_cli.shapes.shape import gradients, node_steps, offsets, place_of, sees, weights
 from cramp_cli.state.stencil import AROUND, CLOSE, FAR
 
 
@@ -56,6 +57,19 @@ def add_entry(stencil, line, k, row, share, bx, by):
     stencil.share[line, e] = share
     stencil.bend[line, e, 0], stencil.bend[line, e, 1] = bx, by
     stencil.entries[line] = e + 1
+
+
+@inlined_kernel
+def is_felt(weight, gradient):
+    """Return whether a particle gives anything to a node that it lists.
+
+    A box that lies within two cells lists nodes of a third one as well, on one side of it and not
+    on the other: rows and normals must not know them.
+    """
+    felt = weight > 0.0
+    for slope in gradient:
+        felt = felt or slope != 0.0
+    return felt
 
 
 @inlined_kernel
@@ -139,6 +153,7 @@ def assign_rows(
         i, j = first % nodes_along[0], first // strides[1]
         lowest = (lower[0] + width * i, lower[1] + width * j)
         place = place_of(shape, strides, stencil, p)
+        S, G = weights(place, shape), gradients(place, shape)
         x, y = particles.position[p, 0], particles.position[p, 1]
         hidden, unsure = hidden_nodes(segments, cell, x, y, lowest, width, side, tolerance)
         if hidden | unsure == 0 and are_plain(rows, first, steps):
@@ -150,7 +165,7 @@ def assign_rows(
             x, y = off_crack(segments, cell, x, y, tolerance)
         known, cut, gx, gy = -1, 1.0, 0.0, 0.0
         for k in range(len(steps)):
-            if not sees(place, shape, k):
+            if not sees(place, shape, k) or not is_felt(S[k], pick(G, k)):
                 continue
             n = (lower[0] + width * (i + k % side), lower[1] + width * (j + k // side))
             node = first + steps[k]

@@ -4,6 +4,15 @@ from typing import NamedTuple
 
 import numpy as np
 
+from cramp_cli.cracks.contact_books import (
+    GIVEN,
+    HALTED,
+    is_light,
+    momentum_to_meet,
+    parting,
+    taken,
+)
+from cramp_cli.cracks.openings import apart
 from cramp_cli.cracks.rows import row_across
 from cramp_cli.numerics.dispatch import by_length
 from cramp_cli.numerics.kernel import inlined_kernel, kernel
@@ -13,8 +22,6 @@ from cramp_cli.numerics.vector import (
     times,
     vector,
 )
-from cramp_cli.shapes.shape import offsets, place_of, weights
-from cramp_cli.transfer.rows import add
 
 IGNORE, FRICTIONAL, STICK, GLUED, ADHESIVE = 0, 1, 2, 3, 4
 LAWS = {
@@ -36,43 +43,6 @@ class ContactLaws(NamedTuple):
     kind: np.ndarray  # (cracks,) IGNORE, FRICTIONAL, STICK or GLUED
     mu: np.ndarray  # (cracks,) coefficient of sliding friction
     mu_static: np.ndarray  # (cracks,) coefficient of static friction, not below mu
-
-
-@kernel
-def sum_displacement(rows, particles, stencil, shape, strides, lo, hi):
-    """Add mass-weighted displacement and position of particles lo..hi to rows of shared nodes."""
-    first, displacement, place = rows.first, rows.displacement, rows.place
-    base, near = stencil.base, stencil.near
-    entries, which, table, share = stencil.entries, stencil.which, stencil.table, stencil.share
-    steps = offsets(strides, shape)
-    for i in range(stencil.count[1]):
-        p = stencil.around[i]
-        if p < lo or p >= hi or not is_any_shared(first, base[p], steps):
-            continue
-        S = weights(place_of(shape, strides, stencil, p), shape)
-        x, X = vector(strides, particles.position, p), vector(strides, particles.origin, p)
-        m, u, line = particles.mass[p], plus(x, -1.0, X), near[p]
-        if line < 0:
-            for k in range(len(steps)):
-                node = base[p] + steps[k]
-                if first[node] >= 0:
-                    add(displacement, node, m * S[k], u)
-                    add(place, node, m * S[k], x)
-            continue
-        for e in range(entries[line]):
-            k, row = which[line, e], table[line, e]
-            if first[base[p] + steps[k]] >= 0:
-                add(displacement, row, m * share[line, e] * S[k], u)
-                add(place, row, m * share[line, e] * S[k], x)
-
-
-@inlined_kernel
-def is_any_shared(first, lowest, steps):
-    """Return whether one of the nodes of a particle has several rows; lowest: the first of them."""
-    shared = False
-    for k in range(len(steps)):
-        shared = shared or first[lowest + steps[k]] >= 0
-    return shared
 
 
 @by_length
@@ -108,29 +78,17 @@ def impulse(kind, mu, mu_static, dp, n, dpn, gap):
 
 
 @kernel
-def momentum_to_meet(grid, a, b, strides, momentum):
-    """Return the momentum that row a must get from row b so that both move alike.
-
-    momentum: (rows, dim); or the forces, for the force that gives both the same acceleration
-    """
-    ma, mb = grid.mass[a], grid.mass[b]
-    pa, pb = vector(strides, momentum, a), vector(strides, momentum, b)
-    return plus(times(pb, ma / (ma + mb)), -(mb / (ma + mb)), pa)
-
-
-@kernel
-def touch_pair(grid, a, b, normal, gap, kind, mu, mu_static, strides, dt, stage):
+def touch_pair(grid, a, b, normal, gap, law, strides, dt, stage):
     """Let rows a (above) and b (below) touch.
 
-    returns: what they do, the work of friction (J), and the momentum that a got from b
+    law: kind, mu, mu_static
+
+    returns: what they do, and the momentum that a got from b
     """
-    mass, momentum, saved, force = grid.mass, grid.momentum, grid.saved, grid.force
-    ma, mb = mass[a], mass[b]
-    reduced = ma * (mb / (ma + mb))
+    momentum, saved, force = grid.momentum, grid.saved, grid.force
+    kind, mu, mu_static = law
     dp = momentum_to_meet(grid, a, b, strides, momentum)
-    pushed = times(momentum_to_meet(grid, a, b, strides, force), dt)
-    dpn = dot(dp, normal)
-    given, state = impulse(kind, mu, mu_static, dp, normal, dpn, gap)
+    given, state = impulse(kind, mu, mu_static, dp, normal, dot(dp, normal), gap)
     for d in range(len(strides)):
         momentum[a, d] += given[d]
         momentum[b, d] -= given[d]
@@ -139,43 +97,31 @@ def touch_pair(grid, a, b, normal, gap, kind, mu, mu_static, strides, dt, stage)
         elif stage == UPDATE:
             force[a, d] += given[d] / dt
             force[b, d] -= given[d] / dt
-    rubbing = kind == FRICTIONAL and state != OPEN and stage == UPDATE
-    work = work_of_friction(dp, pushed, given, normal, reduced) if rubbing else 0.0
-    return state, work, given
+    return state, given
 
 
 @kernel
 def gap_ahead(grid, a, b, normal, gap, strides, dt):
-    """Return the opening between rows a and b at the end of the step if they do not touch (m)."""
-    mass = grid.mass
-    share_a, share_b = mass[a] / (mass[a] + mass[b]), mass[b] / (mass[a] + mass[b])
-    pa, pb = vector(strides, grid.momentum, a), vector(strides, grid.momentum, b)
-    fa, fb = vector(strides, grid.force, a), vector(strides, grid.force, b)
-    dpn = dot(plus(times(pb, share_a), -share_b, pa), normal)
-    dfn = dot(plus(times(fb, share_a), -share_b, fa), normal)
-    return gap + (dpn - 0.5 * dfn * dt) * dt / (mass[a] * share_b)
+    """Return the opening between rows a and b at the end of the step if nothing pushes them (m).
 
-
-@kernel
-def work_of_friction(dp, pushed, given, normal, reduced):
-    """Return what friction takes (J): the tangential momentum given times the mean slip.
-
-    Mean of the slip at the start of the step, before the other forces have pushed the rows apart by
-    `pushed` (N s), and at its end: with the velocities of the two strain updates, as for tractions.
+    With the velocities of the start of the step: those that the forces have made of them are no
+    motion of the faces where a row holds little (its f/m has no bound, particles hardly feel it).
     """
-    tangential = plus(given, -dot(given, normal), normal)
-    slip = plus(plus(dp, -0.5, pushed), -0.5, given)
-    return dot(tangential, slip) / reduced
+    return gap + dt * dot(parting(grid, a, b, strides, grid.saved), normal)
 
 
 @kernel
-def touch(grid, rows, laws, strides, dt, stage):
-    """Contact between rows of a node that differ by one crack; return the work of friction (J).
+def touch(grid, rows, laws, share, strides, dt, stage, book_at):
+    """Contact between rows of a node that differ by one crack; return what it takes (J).
 
     Pairs 0-1, 0-2 come before 1-3, 2-3 (rows of a node ascend by their cracks).
+
+    share: (nodes,) of a node's sums that are the body's own, less than 1 at symmetry planes
+    book_at: pass in which all that the passes of a step take is told: LAST, or UPDATE without it
+    returns: work of friction, loss of impacts
     """
     nodes = len(rows.first)
-    friction = 0.0
+    friction, impact, how = 0.0, 0.0, (strides, dt, stage, book_at)
     for i in range(rows.count[1]):
         node = rows.shared[i]
         for crossings in (1, 2):
@@ -184,23 +130,39 @@ def touch(grid, rows, laws, strides, dt, stage):
                 e = row - nodes
                 if (rows.crack[e, 1] >= 0) == (crossings == 2):
                     for slot in range(crossings):
-                        friction += touch_across(grid, rows, laws, strides, dt, stage, row, slot)
+                        rubbed, lost = touch_across(grid, rows, laws, *how, row, slot)
+                        friction += share[node] * rubbed
+                        impact += share[node] * lost
                 row = rows.next[e]
     for i in range(rows.count[5]):
-        friction += touch_sectors(grid, rows, laws, strides, dt, stage, i)
-    return friction
+        rubbed, lost = touch_sectors(grid, rows, laws, strides, dt, stage, i)
+        above = rows.pair[i, 0]
+        own = share[above if above < nodes else rows.node[above - nodes]]
+        friction += own * rubbed
+        impact += own * lost
+    return friction, impact
 
 
 @kernel
 def touch_sectors(grid, rows, laws, strides, dt, stage, i):
-    """Contact of pair `i` of sectors beside a junction (sectors.py)."""
+    """Contact of pair `i` of sectors beside a junction (sectors.py).
+
+    What it takes is told by the velocities before and after the step, without those of the strain.
+    """
     crack, a, b = rows.pair_crack[i], rows.pair[i, 0], rows.pair[i, 1]
-    if laws.kind[crack] == IGNORE or min(grid.mass[a], grid.mass[b]) <= 0.0:
-        return 0.0
+    kind = laws.kind[crack]
+    if kind == IGNORE or min(grid.mass[a], grid.mass[b]) <= 0.0:
+        return 0.0, 0.0
     n = unit(vector(strides, rows.pair_normal, i))
-    state, work = touch_rows(grid, rows, laws, crack, a, b, n, strides, dt, stage)
+    before = parting(grid, a, b, strides, grid.saved)
+    state, given = touch_rows(grid, rows, laws, crack, a, b, n, strides, dt, stage)
     rows.pair_touching[i] = state
-    return work
+    if stage != UPDATE or is_light(grid.mass, a, b):
+        return 0.0, 0.0
+    mean = times(plus(before, 1.0, parting(grid, a, b, strides, grid.momentum)), 0.5)
+    across = dot(given, n) * dot(mean, n)
+    along = dot(given, mean) - across
+    return (along, across) if kind == FRICTIONAL else (0.0, along + across)
 
 
 @inlined_kernel
@@ -211,50 +173,45 @@ def unit(v):
 
 
 @kernel
-def touch_across(grid, rows, laws, strides, dt, stage, row, slot):
+def touch_across(grid, rows, laws, strides, dt, stage, book_at, row, slot):
     """Contact of a row with the row on the other side of the crack in `slot`."""
     e = row - len(rows.first)
     crack = rows.owner[e, slot]
-    if laws.kind[crack] == IGNORE:
-        return 0.0
+    kind = laws.kind[crack]
+    if kind == IGNORE:
+        return 0.0, 0.0
     partner = row_across(rows, e, slot)
     if partner < 0 or grid.mass[row] <= 0.0 or grid.mass[partner] <= 0.0:
-        return 0.0
+        return 0.0, 0.0
     a, b = (row, partner) if rows.side[e, slot] > 0 else (partner, row)
     n = unit_normal(strides, rows.normal, e, slot)
-    state, work = touch_rows(grid, rows, laws, crack, a, b, n, strides, dt, stage)
+    fast = parting(grid, a, b, strides, grid.momentum)
+    state, given = touch_rows(grid, rows, laws, crack, a, b, n, strides, dt, stage)
     rows.touching[e, slot] = state
-    return work
+    slow, book = parting(grid, a, b, strides, grid.momentum), rows.impulse
+    for d in range(len(strides)):
+        if stage == UPDATE:
+            book[e, slot, GIVEN, d] = given[d]
+        else:
+            book[e, slot, HALTED, d] += fast[d] - slow[d]
+    if stage != book_at or is_light(grid.mass, a, b):
+        return 0.0, 0.0
+    rubbed, lost = taken(book, e, slot, slow, n, dt, stage == LAST)
+    return (rubbed, lost) if kind == FRICTIONAL else (0.0, rubbed + lost)
 
 
 @kernel
 def touch_rows(grid, rows, laws, crack, a, b, n, strides, dt, stage):
     """Let rows a (above) and b (below) touch by the law of a crack; n: unit normal from a to b.
 
-    returns: what they do, and the work of friction (J)
+    returns: what they do, and the momentum that a got from b
     """
-    apart = plus(
-        times(vector(strides, rows.displacement, b), 1.0 / grid.mass[b]),
-        -1.0 / grid.mass[a],
-        vector(strides, rows.displacement, a),
-    )
-    gap = dot(apart, n)
+    opening, flush = apart(rows, a, b, strides)
+    gap = dot(opening, n) - flush
     if stage == UPDATE:
         gap = gap_ahead(grid, a, b, n, gap, strides, dt)
-    state, friction, _ = touch_pair(
-        grid,
-        a,
-        b,
-        n,
-        gap,
-        laws.kind[crack],
-        laws.mu[crack],
-        laws.mu_static[crack],
-        strides,
-        dt,
-        stage,
-    )
-    return state, friction if stage == UPDATE else 0.0
+    law = (laws.kind[crack], laws.mu[crack], laws.mu_static[crack])
+    return touch_pair(grid, a, b, n, gap, law, strides, dt, stage)
 
 
 @kernel

@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from cramp_cli.cohesive.law import respond, stored
+from cramp_cli.cracks.carry import give_back
 from cramp_cli.cracks.view import look_from, side_normal
 from cramp_cli.numerics.kernel import kernel
 
@@ -95,16 +96,9 @@ def spread(force, up, down, traction, paths, faces, cut, mass, solid, place, thi
             traction[k, 0] = traction[k, 1] = 0.0
             continue
         area = thickness * faces.length[k]
-        give(force, up, over, traction, k, -area / weight_up)
-        give(force, down, under, traction, k, area / weight_down)
-
-
-@kernel
-def give(force, seen, count, traction, k, factor):
-    """Add the traction of point k times a factor to the rows that a surface sees."""
-    for e in range(count):
-        force[seen.row[e], 0] += factor * seen.weight[e] * traction[k, 0]
-        force[seen.row[e], 1] += factor * seen.weight[e] * traction[k, 1]
+        fx, fy = area * traction[k, 0], area * traction[k, 1]
+        give_back(force, up, over, -fx, -fy)
+        give_back(force, down, under, fx, fy)
 
 
 @kernel

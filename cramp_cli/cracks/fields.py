@@ -4,10 +4,12 @@ import numpy as np
 
 from cramp_cli.cracks.advect import move_cracks
 from cramp_cli.cracks.assign import assign_rows, list_particles_near_cracks
-from cramp_cli.cracks.contact import GLUED, sum_displacement
+from cramp_cli.cracks.contact import GLUED, LAST, UPDATE, touch
+from cramp_cli.cracks.contact_books import note_parting
 from cramp_cli.cracks.followers import follow, list_followers
 from cramp_cli.cracks.meetings import forget_groups, list_meeting_particles, mark_groups
-from cramp_cli.cracks.rows import clear_shared, forget_rows
+from cramp_cli.cracks.openings import clear_openings, sum_openings
+from cramp_cli.cracks.rows import forget_rows
 from cramp_cli.cracks.sectors import pair_sectors
 from cramp_cli.cracks.segments import list_segments, make_segments
 from cramp_cli.cracks.tip_nodes import EXTENSION, cut_along_cracks, mark_tip_nodes
@@ -127,20 +129,30 @@ def follow_behind_tips(model, scratch, field) -> None:
 
 
 def find_openings(model, state, scratch) -> None:
-    """Extrapolate displacements and places to nodes with several rows."""
+    """Sum what openings are made of in the rows of nodes with several rows."""
     if not scratch.rows.count[1]:
         return
-    clear_shared(scratch.rows)
-    for block in model.blocks:
-        sum_displacement(
-            scratch.rows,
-            state.particles,
-            scratch.stencil,
-            block.shape,
-            model.strides,
-            block.lo,
-            block.hi,
-        )
+    clear_openings(scratch.rows)
+    who = (scratch.rows, state.particles, scratch.stencil)
+    for b in model.blocks:
+        sum_openings(*who, b.shape, model.strides, b.lo, b.hi)
+
+
+def note_faces(model, scratch, field, what) -> None:
+    """Keep how fast the sides of cracks part, or are pushed, before `follow_behind_tips`."""
+    if scratch.rows.count[1]:
+        note_parting(scratch.grid, scratch.rows, model.strides, field, what)
+
+
+def touch_faces(model, state, scratch, stage) -> None:
+    """Let the faces of cracks touch in a pass of contact; book what it takes."""
+    if not scratch.rows.count[1]:
+        return
+    book_at = LAST if model.scheme.again else UPDATE
+    how = (model.contact, scratch.share, model.strides, model.dt, stage, book_at)
+    friction, impact = touch(scratch.grid, scratch.rows, *how)
+    state.books.friction[0] += friction
+    state.books.impact[0] += impact
 
 
 def cut_of_points(model, paths, at_tips) -> np.ndarray:

@@ -95,6 +95,7 @@ def add_row(rows, node, group, a, side_a, b, side_b):
     rows.normal[e, :, :] = 0.0
     rows.touching[e, :] = 0
     rows.owner[e, :] = -1
+    rows.impulse[e, :, :, :] = 0.0
     before, after = -1, rows.first[node]
     while after >= 0 and _comes_first(rows, after - nodes, group, a, side_a, b, side_b):
         before, after = after, rows.next[after - nodes]
@@ -165,15 +166,3 @@ def add_normal(rows, row, crack, segments, s):
             rows.normal[e, slot, 0] += segments.turn[s] * (ends[s, 3] - ends[s, 1])
             rows.normal[e, slot, 1] += segments.turn[s] * (ends[s, 0] - ends[s, 2])
             rows.owner[e, slot] = max(rows.owner[e, slot], segments.crack[s])
-
-
-@kernel
-def clear_shared(rows):
-    """Set displacement and place to zero in all rows of nodes with several rows."""
-    nodes = len(rows.first)
-    for i in range(rows.count[1]):
-        row = rows.shared[i]
-        while row >= 0:
-            rows.displacement[row, :] = 0.0
-            rows.place[row, :] = 0.0
-            row = rows.first[row] if row < nodes else rows.next[row - nodes]

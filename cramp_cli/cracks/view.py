@@ -2,6 +2,9 @@
 
 With these weights a surface moves (advect.py) and gives the stress on it to the rows (faces.py), so
 that the stress works on the motion of the surface and on nothing else.
+
+The rows of a side lie beside the crack, not on it: in a body that turns their mean moves otherwise
+than the surface does. So it is carried on to the surface with their spin (carry.py).
 """
 
 from math import inf
@@ -10,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from cramp_cli.cracks.branches import off_joint
+from cramp_cli.cracks.carry import carry_on
 from cramp_cli.cracks.crossing import crossed_cracks
 from cramp_cli.cracks.lines import NO_CRACK, of_group
 from cramp_cli.cracks.rows import find_row, row_on_side, row_told
@@ -26,13 +30,17 @@ class Seen(NamedTuple):
     """What the point of a surface sees: room for two rows of each of the four nodes around it."""
 
     row: np.ndarray  # (8,)
-    weight: np.ndarray  # (8,) what the row counts
-    mass: np.ndarray  # (8,) what it is weighed by (kg)
+    weight: np.ndarray  # (8,) what the row counts, in the end a share of 1
+    mass: np.ndarray  # (8,) what it is weighed by (kg), in the end what it counts for the spin
+    share: np.ndarray  # (8,) of the side in the motion of the surface, below 1 beside smooth tips
+    arm: np.ndarray  # (8, 2) its node, in the end seen from the middle of all (cells)
+    lever: np.ndarray  # (2,) from the mean place of the rows to the surface, over the inertia
 
 
 def make_seen() -> Seen:
     """Return room for what a point sees."""
-    return Seen(np.zeros(8, dtype=np.int64), np.zeros(8), np.zeros(8))
+    row, numbers = np.zeros(8, dtype=np.int64), (np.zeros(8) for _ in range(3))
+    return Seen(row, *numbers, np.zeros((8, 2)), np.zeros(2))
 
 
 @kernel
@@ -53,7 +61,7 @@ def look_from(seen, even, paths, k, crack, side, normal, cut, mass, solid, place
     cut: share of the crack at the point, as of a particle there (tip_nodes.py)
     solid: rows, segments, contact group of every crack; place: cells, width, lower, strides
 
-    returns: the number of rows and the sum of their weights
+    returns: the number of rows and the sum of their weights before they were made shares of 1
     """
     rows, segments, of_crack = solid
     cells, width, lower, strides = place
@@ -89,9 +97,13 @@ def look_from(seen, even, paths, k, crack, side, normal, cut, mass, solid, place
                 if row >= 0 and share > 0.0 and mass[row] > 0.0:
                     m = mass[row] if even else felt
                     seen.row[count], seen.weight[count], seen.mass[count] = row, S * share, m
+                    seen.share[count], seen.arm[count, 0], seen.arm[count, 1] = share, i, j
                     heaviest = max(heaviest, m)
                     count += 1
-    return count, weigh(seen, count, LIGHT * heaviest if even else inf)
+    total = weigh(seen, count, LIGHT * heaviest if even else inf)
+    if total > 0.0:
+        carry_on(seen, count, rx, ry)
+    return count, total
 
 
 @inlined_kernel
@@ -167,11 +179,17 @@ def is_told_by(rows, node, branch):
 def weigh(seen, count, enough):
     """Weigh rows by mass up to what is `enough` (kg); by all of it if that is infinite.
 
+    Sets the weights, as shares of 1, and what each row counts for the spin: the same wherever among
+    the nodes the surface is.
+
     returns: the sum of the weights
     """
     total = 0.0
     for e in range(count):
-        m = seen.mass[e]
-        seen.weight[e] *= m if enough == inf else min(m / enough, 1.0)
+        m = seen.mass[e] if enough == inf else min(seen.mass[e] / enough, 1.0)
+        seen.weight[e] *= m
+        seen.mass[e] = m * seen.share[e]
         total += seen.weight[e]
+    for e in range(count):
+        seen.weight[e] /= total if total > 0.0 else 1.0
     return total

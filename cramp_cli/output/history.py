@@ -25,6 +25,7 @@ HISTORY_COLUMNS = {
     "cohesive_stored": ("J", "energy that traction laws of crack faces would give back"),
     "cohesive_energy": ("J", "energy that traction laws of crack faces have dissipated"),
     "friction_energy": ("J", "energy spent by friction of crack faces and bodies"),
+    "impact_energy": ("J", "energy lost where faces of cracks meet; below 0 it is none"),
     "plastic_energy": ("J", "energy spent in plastic and viscous strain"),
     "damping_energy": (
         "J",

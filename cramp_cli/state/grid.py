@@ -47,6 +47,7 @@ class Rows(NamedTuple):
     pair_crack: np.ndarray  # (pairs,) crack of that arm
     pair_normal: np.ndarray  # (pairs, dim) first segment of the arm turned from above to below, m
     pair_touching: np.ndarray  # (pairs,) open, sliding or stuck
+    impulse: np.ndarray  # (extra, 2, 5, dim) of contact in a step: cracks/contact.py
     tip: np.ndarray  # (nodes,) tip (2 * crack + end) that is near a node, or -1
     tip_side: np.ndarray  # (nodes,) side of that crack on which the node lies
     tip_branch: np.ndarray  # (nodes,) branch of that crack to which the node is nearest
@@ -56,8 +57,10 @@ class Rows(NamedTuple):
     tip_cut: np.ndarray  # (nodes, 2) the same times the square of the cut share; kg
     tip_split: np.ndarray  # (nodes,) whether it sees a particle that is cut
     tipped: np.ndarray  # (nodes,) nodes that have a tip
-    displacement: np.ndarray  # (rows, dim) mass-weighted displacement at shared nodes, kg m
-    place: np.ndarray  # (rows, dim) mass-weighted position at shared nodes, kg m
+    weight: np.ndarray  # (rows,) sum S m at shared nodes, without images, kg
+    displacement: np.ndarray  # (rows, dim) the same times displacement, kg m
+    place: np.ndarray  # (rows, dim) times position, kg m
+    turn: np.ndarray  # (rows, 2) times F_xx + F_yy, F_yx - F_xy, kg
 
 
 def make_grid(node_count: int, dim: int, extra: int) -> tuple[Grid, Rows]:
@@ -86,6 +89,7 @@ def make_grid(node_count: int, dim: int, extra: int) -> tuple[Grid, Rows]:
         pair_crack=np.zeros(extra, dtype=np.int64),
         pair_normal=np.zeros((extra, dim)),
         pair_touching=np.zeros(extra, dtype=np.int64),
+        impulse=np.zeros((extra, 2, 5, dim)),
         tip=np.full(node_count, -1, dtype=np.int64),
         tip_side=np.zeros(node_count, dtype=np.int64),
         tip_branch=np.zeros(node_count, dtype=np.int64),
@@ -95,7 +99,9 @@ def make_grid(node_count: int, dim: int, extra: int) -> tuple[Grid, Rows]:
         tip_cut=np.zeros((node_count, 2)),
         tip_split=np.zeros(node_count, dtype=np.bool_),
         tipped=np.zeros(node_count, dtype=np.int64),
+        weight=np.zeros(rows),
         displacement=vectors(),
         place=vectors(),
+        turn=np.zeros((rows, 2)),
     )
     return grid, fields

@@ -56,6 +56,7 @@ class Books(NamedTuple):
     external: np.ndarray  # work of loads and moving boundaries
     damping: np.ndarray  # taken by damping
     friction: np.ndarray  # work of friction on crack faces
+    impact: np.ndarray  # lost where crack faces meet
     fracture: np.ndarray  # spent on new crack surface
     absorbed: np.ndarray  # taken by absorbing boundaries
 

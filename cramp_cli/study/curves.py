@@ -26,6 +26,7 @@ ENERGIES = {
     "cohesive_stored": ("cohesive, stored", GREY, "-"),
     "cohesive_energy": ("cohesive", GREY, "-."),
     "friction_energy": ("friction", CYCLE[3], "-."),
+    "impact_energy": ("impact", CYCLE[3], ":"),
     "plastic_energy": ("plastic", CYCLE[4], ":"),
     "damping_energy": ("damping", CYCLE[5], ":"),
 }

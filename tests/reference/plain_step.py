@@ -46,6 +46,9 @@ class Row:
     f: list = field(default_factory=lambda: [0.0, 0.0])
     moved: list = field(default_factory=lambda: [0.0, 0.0])  # sum S m (x - X)
     place: list = field(default_factory=lambda: [0.0, 0.0])  # sum S m x
+    first: list = None  # place at the start of the step
+    turn: list = field(default_factory=lambda: [0.0, 0.0])  # sum S m (F_xx + F_yy, F_yx - F_xy)
+    met: dict = field(default_factory=dict)  # crack: what contact across it has done in this step
     normals: dict = field(default_factory=dict)  # crack: sum of crossed pieces, turned to below
     v: list = None  # p/m
     a: list = None  # f/m
@@ -106,6 +109,7 @@ class Problem:
     damping: tuple  # of grid and particle velocity
     pieces: list = None  # of the cracks, at the start of the step
     friction: float = 0.0
+    impact: float = 0.0
     reaction: list = field(default_factory=lambda: [0.0, 0.0])
 
 
@@ -183,6 +187,8 @@ class Grid:
                 r = (q.x[0] - n[0], q.x[1] - n[1])
                 sx, sy = (S(r[d], h, problem.half) for d in AXES)
                 gx, gy = (dS(r[d], h, problem.half) for d in AXES)
+                if sx * sy == 0.0 and gx * sy == 0.0 and sx * gy == 0.0:
+                    continue
                 row = self.row_for((i, j), crossed(problem, q.x, n))
                 sees.append((sx * sy, (gx * sy, sx * gy), row))
             self.seen.append(sees)
@@ -212,12 +218,14 @@ class Grid:
 
     def sum_openings(self, problem):
         for row in self.rows.values():
-            row.moved, row.place = [0.0, 0.0], [0.0, 0.0]
+            row.moved, row.place, row.turn = ([0.0, 0.0] for _ in range(3))
         for q, sees in zip(problem.particles, self.seen, strict=True):
             for s, _, row in sees:
                 for d in AXES:
                     row.moved[d] += s * q.m * (q.x[d] - q.X[d])
                     row.place[d] += s * q.m * q.x[d]
+                row.turn[0] += s * q.m * (q.F[0][0] + q.F[1][1])
+                row.turn[1] += s * q.m * (q.F[1][0] - q.F[0][1])
 
     def sum_momenta(self, problem):
         for row in self.rows.values():
@@ -248,6 +256,12 @@ class Grid:
 
 def touch(problem, grid, when):
     """Pass A (first), B (update) or C (last) over all pairs of rows that differ by one crack."""
+    for row, c, a, b in pairs_of(grid):
+        touch_pair(problem, problem.cracks[c], a, b, row.normals[c], when, row.met[c])
+
+
+def pairs_of(grid):
+    """Rows a above and b below crack c, with the row that knows it."""
     for node in grid.shared():
         for row in grid.rows_at(node):
             for c, side in row.crossed:
@@ -255,35 +269,48 @@ def touch(problem, grid, when):
                 partner = grid.rows.get((node, rest))
                 if partner is None or row.m <= 0.0 or partner.m <= 0.0:
                     continue
-                a, b = (row, partner) if side > 0 else (partner, row)
-                touch_pair(problem, problem.cracks[c], a, b, row.normals[c], when)
+                yield row, c, *((row, partner) if side > 0 else (partner, row))
 
 
-def touch_pair(problem, crack, a, b, normal, when):
+def note(grid, name):
+    """Keep the relative velocity of all pairs at start or end, or the force that pushes them."""
+    for row, c, a, b in pairs_of(grid):
+        kept = row.met.setdefault(c, {"halted": [0.0, 0.0]})
+        if name == "pushed":
+            kept[name] = [(a.m * b.f[d] - b.m * a.f[d]) / (a.m + b.m) for d in AXES]
+        else:
+            kept[name] = [b.p[d] / b.m - a.p[d] / a.m for d in AXES]
+
+
+def opened(a, b):
+    """How far b is apart from a: the mean of both rotations is taken off. And what is nothing."""
+    moved = [b.moved[d] / b.m - a.moved[d] / a.m for d in AXES]
+    X, Y = (b.place[d] / b.m - a.place[d] / a.m - moved[d] for d in AXES)
+    sizes = [hypot(*row.turn) for row in (a, b)]
+    c, s = (0.5 * (a.turn[d] / sizes[0] + b.turn[d] / sizes[1]) for d in AXES)
+    return [moved[0] - (c - 1.0) * X + s * Y, moved[1] - s * X - (c - 1.0) * Y], 1e-9 * hypot(X, Y)
+
+
+def touch_pair(problem, crack, a, b, normal, when, met):
     dt = problem.dt
     n = [component / hypot(*normal) for component in normal]
-    total, reduced = a.m + b.m, a.m * b.m / (a.m + b.m)
+    total = a.m + b.m
     dp = [(a.m * b.p[d] - b.m * a.p[d]) / total for d in AXES]
     dpn = dp[0] * n[0] + dp[1] * n[1]
-    gap = sum((b.moved[d] / b.m - a.moved[d] / a.m) * n[d] for d in AXES)
+    apart, flush = opened(a, b)
+    gap = sum(x * n[d] for d, x in enumerate(apart)) - flush
     if when == "update":
-        dfn = sum((a.m * b.f[d] - b.m * a.f[d]) / total * n[d] for d in AXES)
-        gap += (dpn - 0.5 * dfn * dt) * dt / reduced
+        gap += dt * sum((b.saved[d] / b.m - a.saved[d] / a.m) * n[d] for d in AXES)
+    fast = [b.p[d] / b.m - a.p[d] / a.m for d in AXES]
     along = [dp[d] - dpn * n[d] for d in AXES]
     slip = hypot(*along)
     if crack.law == "ignore":
         return
-    if crack.law != "glued" and not (gap < 0.0 and dpn < 0.0):
-        return
     given = dp
-    if crack.law == "frictional" and slip > crack.mu_static * -dpn:
+    if crack.law != "glued" and not (gap < 0.0 and dpn < 0.0):
+        given = [0.0, 0.0]
+    elif crack.law == "frictional" and slip > crack.mu_static * -dpn:
         given = [dpn * n[d] + crack.mu * -dpn * along[d] / slip for d in AXES]
-    if crack.law == "frictional" and when == "update":
-        rubbed = sum(given[d] * n[d] for d in AXES)
-        for d in AXES:
-            pushed = (a.m * b.f[d] - b.m * a.f[d]) / total * dt
-            mean = (dp[d] - 0.5 * pushed - 0.5 * given[d]) / reduced
-            problem.friction += (given[d] - rubbed * n[d]) * mean
     for row, sign in ((a, 1.0), (b, -1.0)):
         for d in AXES:
             row.p[d] += sign * given[d]
@@ -291,6 +318,35 @@ def touch_pair(problem, crack, a, b, normal, when):
                 row.saved[d] = row.p[d]
             elif when == "update":
                 row.f[d] += sign * given[d] / dt
+    slow = [b.p[d] / b.m - a.p[d] / a.m for d in AXES]
+    if when == "update":
+        met["given"] = given
+    else:
+        met["halted"] = [met["halted"][d] + fast[d] - slow[d] for d in AXES]
+    if when == ("last" if problem.again else "update") and min(a.m, b.m) >= 1e-4 * total:
+        book(problem, crack, met, met["end"] if problem.again else slow, n)
+
+
+def book(problem, crack, met, end, n):
+    """Work of what was given on the mean velocity, less that of the forces on what was halted.
+
+    Without second sums the strain feels what the update has left.
+    """
+    given, pushed = met["given"], [x * problem.dt for x in met["pushed"]]
+    if not problem.again:
+        pushed = given
+    along, across = 0.0, 0.0
+    normal = [
+        sum(x[d] * n[d] for d in AXES) for x in (given, met["start"], end, pushed, met["halted"])
+    ]
+    across = normal[0] * 0.5 * (normal[1] + normal[2]) - normal[3] * 0.5 * normal[4]
+    for d in AXES:
+        along += given[d] * 0.5 * (met["start"][d] + end[d]) - pushed[d] * 0.5 * met["halted"][d]
+    if crack.law == "frictional":
+        problem.friction += along - across
+        problem.impact += across
+    else:
+        problem.impact += along
 
 
 # Held edges --------------------------------------------------------------------
@@ -305,7 +361,7 @@ def held_rows(problem, grid, hold):
         if abs(x[hold.plane] - hold.at) > 1e-6 * h:
             continue
         if row.node in shared:
-            inside = row.m > 0.0 and hold.span[0] <= row.place[other] / row.m <= hold.span[1]
+            inside = row.m > 0.0 and hold.span[0] <= row.first[other] / row.m <= hold.span[1]
         else:
             inside = hold.span[0] - 1e-6 * h <= x[other] <= hold.span[1] + 1e-6 * h
         if inside:
@@ -428,7 +484,7 @@ def surface_step(problem, grid, c, k, side):
     off = side * 1e-4 * h / length
     q = (crack.plane[k][0] - off * (j[1] - i[1]), crack.plane[k][1] + off * (j[0] - i[0]))
     cell = [floor((x[d] - low[d]) / h) for d in AXES]
-    mass, v, a = 0.0, [0.0, 0.0], [0.0, 0.0]
+    seen = []  # row, weight, mass
     for node in product(*((first, first + 1) for first in cell)):
         row = surface_row(problem, grid, c, side, node, q)
         if row is None or row.m <= 0.0:
@@ -436,16 +492,34 @@ def surface_step(problem, grid, c, k, side):
         w = row.m
         for d in AXES:
             w *= 1.0 - abs((x[d] - low[d]) / h - node[d])
-        mass += w
-        for d in AXES:
-            v[d] += w * row.v[d]
-            a[d] += w * row.a[d]
+        seen.append((row, w))
+    mass = sum(w for _, w in seen)
     if mass <= 0.0:
         old[:] = [0.0, 0.0]
         return None
-    step = [dt * (1.5 * v[d] / mass - 0.5 * old[d] - a[d] / mass * dt) for d in AXES]
-    old[:] = [v[d] / mass for d in AXES]
+    at = [(x[d] - low[d]) / h for d in AXES]
+    v, a = (carried(at, seen, name) for name in "va")
+    step = [dt * (1.5 * v[d] - 0.5 * old[d] - a[d] * dt) for d in AXES]
+    old[:] = v
     return step
+
+
+def carried(at, seen, name):
+    """Mean of a field over rows, carried on to a place (cells) with the spin of the rows."""
+    mass, total = sum(w for _, w in seen), sum(row.m for row, _ in seen)
+    mean, place, middle = ([0.0, 0.0] for _ in range(3))
+    for row, w in seen:
+        for d in AXES:
+            mean[d] += w / mass * getattr(row, name)[d]
+            place[d] += w / mass * row.node[d]
+            middle[d] += row.m / total * row.node[d]
+    turn, inertia = 0.0, 0.0
+    for row, _ in seen:
+        r, u = [row.node[d] - middle[d] for d in AXES], getattr(row, name)
+        turn += row.m * (r[0] * u[1] - r[1] * u[0])
+        inertia += row.m * (r[0] ** 2 + r[1] ** 2)
+    spin = turn / inertia if inertia > 1e-9 * total else 0.0
+    return [mean[0] - spin * (at[1] - place[1]), mean[1] + spin * (at[0] - place[0])]
 
 
 def surface_row(problem, grid, c, side, node, q):
@@ -480,7 +554,9 @@ def plain_step(problem):
     grid.sum_momenta(problem)
     for row in rows:
         row.saved = list(row.p)
-    places = {id(row): list(row.place) for row in rows}  # held rows are found once a step
+    for row in rows:
+        row.first = list(row.place)  # held rows are found once a step
+    note(grid, "start")
     touch(problem, grid, "first")
     if before:
         hold_momenta(problem, grid)
@@ -488,6 +564,7 @@ def plain_step(problem):
     for row in rows:
         row.p = list(row.saved)
     grid.sum_forces(problem)
+    note(grid, "pushed")
     hold_forces(problem, grid)
     for row in rows:
         row.p = [row.p[d] + row.f[d] * problem.dt for d in AXES]
@@ -497,9 +574,8 @@ def plain_step(problem):
     move_cracks(problem, grid)
     if problem.again:
         grid.sum_openings(problem)
-        for row in rows:
-            row.place = places[id(row)]
         grid.sum_momenta(problem)
+        note(grid, "end")
         touch(problem, grid, "last")
         hold_momenta(problem, grid)
     if after:

@@ -104,6 +104,7 @@ def compare(package, problem, round_off=1e-12):
         "stretch": (p.stretch, [q.stretch for q in problem.particles]),
         "work": (p.work, [q.work for q in problem.particles]),
         "friction": (state.books.friction, [problem.friction]),
+        "impact": (state.books.impact, [problem.impact]),
     }
     for name, points in (("point", "plane"), ("above", "above"), ("below", "below")):
         pairs[name] = getattr(paths, name), [x for c in problem.cracks for x in getattr(c, points)]
@@ -111,7 +112,7 @@ def compare(package, problem, round_off=1e-12):
         pairs["reactions"] = state.reactions.sum(axis=0), problem.reaction
     for name, (got, wanted) in pairs.items():
         wanted = np.array(wanted).reshape(np.shape(got))
-        size = np.abs(wanted if name != "friction" else p.work).max(initial=0.0)
+        size = np.abs(wanted if name not in ("friction", "impact") else p.work).max(initial=0.0)
         np.testing.assert_allclose(got, wanted, rtol=0.0, atol=round_off * size, err_msg=name)
     return pairs
 

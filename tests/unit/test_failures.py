@@ -1,10 +1,15 @@
 """When a solution is no longer one, and how that is said."""
 
+from typing import ClassVar
+
 import numpy as np
 import pytest
+from runs import Listener, Rows
 from support import advance, build_deck, locate, read
 
+from cramp_cli.build import build
 from cramp_cli.energy_balance import SETTLED, Balance
+from cramp_cli.simulation import simulate
 from cramp_cli.state.failure import NumericalFailure
 from cramp_cli.state.particles import DELETED
 
@@ -104,6 +109,38 @@ def test_the_advice_is_that_for_the_update(update, words):
 def test_the_advice_for_an_unstable_pair_of_schemes():
     with pytest.raises(NumericalFailure, match=r"usl- may be unstable; use usl\+"):
         judged(0.9, update="fmpm(2)", strain="usl-")
+
+
+def test_the_end_of_a_run_is_judged_however_short_it_is():
+    _, state, _ = build_deck(BLOCK)
+    state.step, ears = 1, Ears()
+    books = Balance(state, read(BLOCK).solver)
+    books.error = -0.23
+    books.judge(state, ears)
+    with pytest.raises(NumericalFailure, match="step 1.*off by -23 %"):
+        books.judge(state, ears, at_end=True)
+
+
+class Steps(Balance):
+    """A balance that remembers when it was judged."""
+
+    judged: ClassVar[list] = []
+
+    def judge(self, state, reporter, *, at_end=False):
+        self.judged.append(state.step)
+
+
+def test_the_balance_is_judged_fifty_times_a_run(monkeypatch):
+    """However rarely the history has a row; and at the end."""
+    monkeypatch.setattr("cramp_cli.simulation.Balance", Steps)
+    Steps.judged.clear()
+    deck = read(BLOCK, solver={"end_time": 60.0}, output={"every": 60, "history_every": 60})
+    model, state = build(deck)
+    simulate(deck, model, state, Rows(), Listener())
+    judged = sorted(set(Steps.judged))
+    assert len(judged) >= 50
+    assert np.diff(judged).max() <= state.step // 50 + 1
+    assert judged[-1] == state.step
 
 
 def test_a_pressure_that_keeps_a_crack_closed_is_no_failure():
