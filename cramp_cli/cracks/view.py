@@ -92,8 +92,8 @@ def look_from(seen, even, paths, k, crack, side, normal, cut, mass, solid, place
                 continue
             # as a particle there: the share of the side, and of the mean of both sides
             own, felt = near / (near + far), near + (1.0 - cut) * far
-            mean, alone = (1.0 - cut) * own, cut * min(own / LIGHT, 1.0)
-            for row, share in ((mine, alone + mean), (facing, 1.0 - cut - mean)):
+            mean, sole = (1.0 - cut) * own, cut * min(own / LIGHT, 1.0)
+            for row, share in ((mine, sole + mean), (facing, 1.0 - cut - mean)):
                 if row >= 0 and share > 0.0 and mass[row] > 0.0:
                     m = mass[row] if even else felt
                     seen.row[count], seen.weight[count], seen.mass[count] = row, S * share, m
