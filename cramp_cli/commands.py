@@ -85,10 +85,12 @@ def refuse_too_few_steps(deck, needs: dict) -> None:
 
     Mostly a modulus or a density without its unit makes the time step far too long.
     """
+    from cramp_cli.build.model import time_step  # late: imports numba
     from cramp_cli.deck.deck import DeckError
 
-    if needs.get("steps", FEWEST_STEPS) < FEWEST_STEPS:
-        message = f"is only {needs['steps']} time steps of {needs['time step']}"
+    steps = round(deck.solver.end_time / time_step(deck))
+    if steps < FEWEST_STEPS:
+        message = f"is only {steps} time steps of {needs['time step']}"
         remedy = f"a run needs {FEWEST_STEPS}: see the units of E, density and grid.cell"
         raise DeckError([deck.mistake(("solver", "end_time"), f"{message}; {remedy}")])
 

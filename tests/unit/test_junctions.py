@@ -15,7 +15,7 @@ from cramp_cli.cracks.tips import tips_of
 from cramp_cli.state.paths import PLAIN, TIP
 
 CLEAR = 1e-6  # cells; particles nearer to an arm than this are not asked for their sector
-FAR = 12.0  # length of an arm, cells: out of the body
+BEYOND = (-2.0, 10.0)  # where arms end, beyond the body of 8 by 8 cells (m)
 PLACES = st.one_of(
     st.sampled_from([(4.0, 4.0), (3.75, 3.75), (4.0, 3.75), (4.5, 4.25), (4.0, 4.0 + 1e-8)]),
     st.tuples(st.floats(3.0, 5.0), st.floats(3.0, 5.0)),
@@ -41,7 +41,11 @@ def stars(draw, fewest=2, most=5):
 
 
 def _end(place, angle):
-    return (place[0] + FAR * _unit(angle)[0], place[1] + FAR * _unit(angle)[1])
+    way, low, high = _unit(angle), *BEYOND
+    far = min(
+        ((high if w > 0.0 else low) - x) / w for x, w in zip(place, way, strict=True) if w != 0.0
+    )
+    return (place[0] + far * way[0], place[1] + far * way[1])
 
 
 def _unit(angle):
@@ -213,8 +217,8 @@ def test_a_domain_goes_through_a_joint_as_along_one_crack():
     np.testing.assert_allclose(
         parts.paths.origin[points], whole.paths.origin[::-1], rtol=0, atol=1e-14
     )
-    assert find_room(model, parts.paths, tip, (6.0, 4.0))[1] != "crack c0"
+    assert find_room(model, parts.paths, tip, (6.0, 4.0), 0.5)[1] != "crack c0"
     arms = [[(0, 4), (3, 4)], [(6, 4), (3, 4)], [(3, 4), (3, 6)]]
     model, three, _ = sorted_out(cracks_along(arms))
     tip = next(one for one in tips_of(three.paths) if one.crack == 1)
-    assert find_room(model, three.paths, tip, (6.0, 4.0)) == (3.0, "crack c0")
+    assert find_room(model, three.paths, tip, (6.0, 4.0), 0.5) == (3.0, "crack c0")
