@@ -1,6 +1,6 @@
 """What a deck says about damping and coming to rest, in numbers."""
 
-from cramp_cli.deck.rest import is_damped, last_change
+from cramp_cli.deck.rest import last_change, may_rest
 from cramp_cli.deck.run import AUTO
 from cramp_cli.state.rest import Rest
 
@@ -16,7 +16,7 @@ def rest_of(deck) -> Rest:
     """Return when a run of a deck is at rest."""
     return Rest(
         auto=deck.solver.damping == AUTO,
-        watched=is_damped(deck.solver),
+        watched=may_rest(deck.solver),
         stops=deck.solver.stop_when == "at_rest",
         loads_until=last_change(deck),
     )

@@ -10,6 +10,7 @@ from cramp_cli.deck.run import AUTO
 from cramp_cli.schema.curve import KINDS
 from cramp_cli.schema.section import Wrong
 
+CALMED = 1.0  # damping rate times end time; below it a run is not meant to come to rest
 CURVES = tuple(KINDS.values())
 Path = tuple[str | int, ...]
 
@@ -18,6 +19,14 @@ def is_damped(solver: Any) -> bool:
     """Return whether something in the solver takes motion away."""
     damping = solver.damping
     return damping == AUTO or damping.grid > 0.0 or damping.particle > 0.0
+
+
+def may_rest(solver: Any) -> bool:
+    """Return whether a run can come to rest: by its end damping must have had time to act."""
+    damping = solver.damping
+    if damping == AUTO or solver.stop_when == "at_rest":
+        return True
+    return (damping.grid + damping.particle) * solver.end_time >= CALMED
 
 
 def last_change(deck: Any) -> float:
