@@ -1,9 +1,11 @@
 """The energies of a run, and whether they balance (docs/theory/energy.md)."""
 
 from copy import copy
+from math import isfinite
 
 from cramp_cli.cracks.cohesion import cohesive_energies, energy_of_pressures
 from cramp_cli.state.failure import NumericalFailure
+from cramp_cli.state.health import check_health
 from cramp_cli.state.measures import momentum, sum_energies
 
 SETTLED = 50  # steps with energy until the limits of the deck hold: before, they are wider
@@ -40,6 +42,8 @@ class Balance:
         self.largest = max(self.largest, kinetic + stored + held, abs(work), taken, of_load)
         self.error = (spent - self.start - work) / self.largest if self.largest else 0.0
         self.begun = self.begun if self.largest else state.step
+        if not isfinite(self.error):
+            check_health(model, state)  # it knows which particle, where, and why
         total = momentum(state.particles)
         return {
             "step": state.step,

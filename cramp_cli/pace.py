@@ -12,6 +12,7 @@ from math import ceil, inf, log2, sqrt
 import numpy as np
 
 from cramp_cli.state.failure import NumericalFailure
+from cramp_cli.state.health import check_health
 from cramp_cli.state.measures import fastest
 
 FARTHEST = 0.25  # cells that anything moves in a step
@@ -26,6 +27,7 @@ def keep_pace(model, state):
         return model
     halvings = ceil(log2(cells / FARTHEST)) if cells < inf else inf
     if not halvings <= MOST_HALVINGS:
+        check_health(model, state)  # it knows which particle, where, and why
         waves = f"{cells:.3g} cells in a step of the waves"
         raise NumericalFailure(
             f"step {state.step}, t = {state.time:.6g} s: something moves at {speed:.4g} m/s, "
