@@ -65,7 +65,7 @@ def _wake_of(model, state, scratch, tip) -> Wake:
 def _smooth(model, state, tip, wake, share) -> None:
     """Take a share of the roughness, and note the energy that goes with it as flowed to the tip."""
     particles, mine = state.particles, wake.chosen[wake.inside]
-    change = share * (_linear_fit(wake, particles.F, model.lattice.width) - particles.F[mine])
+    change = share * _roughness(wake, particles.F, model.lattice.width)
     before = particles.work[mine]
     _change_gradient(model, particles, mine, wake.block[wake.inside], change)
     taken = (before - particles.work[mine]) * particles.volume[mine]
@@ -76,8 +76,12 @@ def _smooth(model, state, tip, wake, share) -> None:
     note_taken(state.growth, tip, away, taken, model.lattice.width)
 
 
-def _linear_fit(wake, F, width) -> np.ndarray:
-    """Return F (m, dim*dim) of the best linear functions around the particles in a wake."""
+def _roughness(wake, F, width) -> np.ndarray:
+    """Return by what F (m, dim*dim) of the particles in a wake differs from linear functions.
+
+    The best ones around each particle. Differences from its own F are fitted, so that `TINY` draws
+    a fit to that, not to zero: a body at rest stays at rest.
+    """
     away = (wake.origin[None] - wake.origin[wake.inside, None]) / width
     left = wake.across > 0.0
     near = np.sum(away**2, axis=2) < AROUND**2
@@ -86,7 +90,8 @@ def _linear_fit(wake, F, width) -> np.ndarray:
     terms = np.concatenate([np.ones_like(away[:, :, :1]), away], axis=2)
     counted = near[:, :, None] * terms
     matrix = np.einsum("ijk,ijl->ikl", counted, terms) + TINY * np.eye(terms.shape[2])
-    return np.linalg.solve(matrix, np.einsum("ijk,jc->ikc", counted, F[wake.chosen]))[:, 0]
+    apart = F[wake.chosen][None] - F[wake.chosen[wake.inside], None]
+    return np.linalg.solve(matrix, np.einsum("ijk,ijc->ikc", counted, apart))[:, 0]
 
 
 def _change_gradient(model, particles, mine, block, change) -> None:
