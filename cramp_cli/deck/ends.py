@@ -1,8 +1,9 @@
 """What the ends of cracks are: what `auto` stands for, and words that contradict geometry.
 
 An end on another crack is a junction; one at or beyond the surface of the body, or on a symmetry
-plane that its crack meets, is an edge; one inside is a tip. All functions want a deck whose
-sections are right by themselves.
+plane that its crack meets, is an edge; one inside is a tip. From AT to DEEP inside the surface a
+deck may call an end an edge or a tip; there `auto` decides at SURFACE, so that no word of its
+choice would be a mistake. All functions want a deck whose sections are right by themselves.
 """
 
 from collections.abc import Iterator
@@ -10,14 +11,15 @@ from math import hypot
 from typing import Any, NamedTuple
 
 from cramp_cli.deck.contact_groups import group_of_crack, groups_of_bodies
+from cramp_cli.deck.line_checks import holds
 from cramp_cli.schema.section import Wrong
 
 MEETS = 0.1  # cells; an end this near to another crack lies on it
-SURFACE = 0.5  # cells; a ligament shorter than this is none
+SURFACE = 0.5  # cells; a ligament shorter than this is none to `auto`
 AT = 0.1  # cells; a `tip` nearer to the surface than this is at it
 DEEP = 1.0  # cells; an `edge` further inside than this is not at the surface
 ROUND_OFF = 1e-6
-BESIDE = 0.5  # cells beside a symmetry plane; there a crack in the plane is looked at
+BESIDE = 0.5  # cells beside a plane of nodes; there a crack in the plane is looked at
 KEYS = (("start", 0, 1), ("end", -1, -2))  # key, place of the end in the line, of the one before
 
 
@@ -127,20 +129,24 @@ class _Solids:
         return ""
 
     def _planes(self, point, before) -> tuple[list[str], list[int]]:
-        """Return the symmetry planes through a point that a crack meets, and axes of the others."""
+        """Return the symmetry planes through a point that a crack meets, and axes of the others.
+
+        A crack along a plane that is held is one as well: half of a body, its ligament held as
+        with finite elements. Its end is a tip, and is told of symmetry (line_checks.py).
+        """
         crosses, along = [], []
         for boundary in self._deck.boundary:
-            for axis, place in boundary.where.planes if boundary.symmetry else ():
+            for axis, place in boundary.where.planes:
                 if abs(point[axis] - place) > AT * self._cell:
                     continue
-                if abs(before[axis] - place) > AT * abs(before[1 - axis] - point[1 - axis]):
+                if abs(before[axis] - place) <= AT * abs(before[1 - axis] - point[1 - axis]):
+                    along += [axis] if boundary.symmetry or holds(boundary, axis) else []
+                elif boundary.symmetry:
                     crosses.append(f"{'xy'[axis]} = {place:g} m")
-                else:
-                    along.append(axis)
         return crosses, along
 
     def _depth(self, crack: Any, point, along: list[int]) -> float:
-        """Return how far inside the solid a point is (m); along: axes of planes it lies in."""
+        """Return how far inside the solid a point is (m); along: axes of planes its crack is in."""
         import shapely
 
         solid = self._solid_of(self._group[crack.name])
@@ -168,7 +174,7 @@ class _Solids:
 
 
 def _beside(point, along: list[int], off: float) -> list[tuple[float, float]]:
-    """Return a point; where its crack lies in a symmetry plane, places on both sides of it."""
+    """Return a point; where its crack lies in a plane of nodes, places on both sides of it."""
     if not along:
         return [point]
     dx, dy = (off, 0.0) if along[0] == 0 else (0.0, off)

@@ -78,9 +78,8 @@ def ligament_warnings(parts: Parts) -> Iterator[Wrong]:
     """
     near = NEAR * parts.grid.cell
     for number, plane in parts.boundary:
-        held = set(plane.fix or ()) | {axis for axis in AXES if _moves(plane, axis)}
         for axis, at in plane.where.planes:
-            if AXES[axis] not in held:
+            if not holds(plane, axis):
                 continue
             names = [crack.name for _, crack in parts.cracks if _ends_on(crack, axis, at, near)]
             if names:
@@ -89,8 +88,10 @@ def ligament_warnings(parts: Parts) -> Iterator[Wrong]:
                 yield ("boundary", number), f"{message}; {remedy}"
 
 
-def _moves(plane, axis: str) -> bool:
-    return plane.velocity is not None and getattr(plane.velocity, axis) is not None
+def holds(plane, axis: int) -> bool:
+    """Return whether a boundary says how nodes move along an axis, other than by symmetry."""
+    drawn = plane.velocity is not None and getattr(plane.velocity, AXES[axis]) is not None
+    return drawn or AXES[axis] in (plane.fix or ())
 
 
 def _ends_on(crack: CrackSection, axis: int, at: float, near: float) -> bool:

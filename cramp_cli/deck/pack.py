@@ -53,19 +53,21 @@ class Pack(Assembly):
         elif len(self.radii) > MOST:
             yield ("fraction",), f"makes more than {MOST} disks; take larger ones"
         elif self._is_hopeless():
-            yield (
-                (key,),
-                (
-                    f"can not be reached: {len(self.radii)} disks of this size would fill "
-                    f"{self._share():.3f} of the region; disks thrown at random jam near 0.5"
-                ),
-            )
+            yield (key,), self._excess(getattr(self, key))
         elif len(self.disks) < len(self.radii):
             yield (key,), self._lack(getattr(self, key))
 
     def _is_hopeless(self) -> bool:
         """Return whether disks nearly alike would fill more than random throws ever can."""
         return min(self.radii) > ALIKE * max(self.radii) and self._share() > JAMMED
+
+    def _excess(self, wanted: float) -> str:
+        """Return what to say of more disks than random throws find room for."""
+        disks = "1 disk" if len(self.radii) == 1 else f"{len(self.radii)} disks"
+        return (
+            f"can not be reached: {disks} of this size would fill {self._share():.3f} of the "
+            f"region (got {wanted:g}); disks thrown at random jam near 0.5"
+        )
 
     def _share(self) -> float:
         return sum(pi * radius**2 for radius in self.radii) / self.inside.outline().area

@@ -51,13 +51,15 @@ def _odd_material(material: Any) -> Iterator[Wrong]:
 def _coarse_bodies(deck: Any) -> Iterator[Wrong]:
     """Yield bodies that are hardly larger than a cell."""
     for place, body in enumerate(deck.bodies):
-        if body.hole or body.rigid:
-            continue
-        size = max(b - a for a, b in zip(*body.shape.bounds(), strict=True))
-        if size < FEWEST * deck.grid.cell:
-            cells = size / deck.grid.cell
+        cells = longest(body) / deck.grid.cell
+        if cells < FEWEST and not (body.hole or body.rigid):
             message = f"is {cells:.3g} cells long, too few for any stress"
             yield ("bodies", place, "shape"), f"{message}; a smaller grid.cell may be meant"
+
+
+def longest(body: Any) -> float:
+    """Return the longer side of the box around a body (m)."""
+    return max(b - a for a, b in zip(*body.shape.bounds(), strict=True))
 
 
 def _late_ramps(deck: Any) -> Iterator[Wrong]:

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from cramp_cli.deck.plausible import FEWEST, longest
 from cramp_cli.deck.regions import Regions
 from cramp_cli.schema.section import Wrong
 
@@ -12,12 +13,15 @@ HALVINGS = 12  # until the thickness is known well enough to be told
 
 
 def thin_warnings(deck) -> Iterator[Wrong]:
-    """Yield each solid body with a piece that no disk of two cells fits into."""
+    """Yield each solid body with a piece that no disk of two cells fits into.
+
+    Bodies that are short as well are told that by plausible.py, which says more.
+    """
     regions, cell = Regions(deck.bodies), deck.grid.cell
     from shapely.errors import ShapelyError
 
     for number, body in enumerate(deck.bodies):
-        if body.hole or body.rigid:
+        if body.hole or body.rigid or longest(body) < FEWEST * cell:
             continue
         try:
             cells = thinnest(regions.left(number), CELLS * cell) / cell

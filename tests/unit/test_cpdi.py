@@ -276,7 +276,8 @@ def test_a_particle_without_numbers_ends_the_run():
 
 
 def test_shortened_domains_are_told_once():
-    deck = read(BLOCK, solver={"end_time": 8.0})
+    """The balance is let be: it does not know of the energy of a stretch that no force made."""
+    deck = read(BLOCK, solver={"end_time": 8.0, "energy_error": {"stop": 1e9}})
     model, state = build(deck)
     state.particles.F[3] = (9.0, 0.0, 0.0, 1.0)
     told = Listener()

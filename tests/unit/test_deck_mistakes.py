@@ -259,7 +259,7 @@ def test_names_given_twice(tell):
 def test_a_misspelt_key_that_is_needed_is_one_mistake(tell):
     lines = tell(GOOD.replace("nu:", "un:").replace("end_time", "end_tiem"))
     assert lines == [
-        "d.yaml:5:47: materials.glass.un: unknown key; did you mean 'nu'?",
+        "d.yaml:5:51: materials.glass.un: unknown key; did you mean 'nu'?",
         "d.yaml:15:10: solver.end_tiem: unknown key; did you mean 'end_time'?",
     ]
 

@@ -1,6 +1,8 @@
 """What the ends of cracks are: chosen by where they lie, and words that contradict it."""
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from support import read
 
 from cramp_cli.build.estimate import estimate
@@ -35,8 +37,8 @@ def ends(*lines, **sections):
         (((5, 5), (15, 5)), ("tip", "tip")),
         (((0, 5), (15, 5)), ("edge", "tip")),  # at the surface
         (((-3, 5), (15, 5)), ("edge", "tip")),  # beyond it
-        (((0.2, 5), (15, 5)), ("edge", "tip")),  # a ligament of less than a quarter of a cell
-        (((0.3, 5), (15, 5)), ("tip", "tip")),
+        (((0.4, 5), (15, 5)), ("edge", "tip")),  # a ligament of less than half a cell
+        (((0.6, 5), (15, 5)), ("tip", "tip")),
         (((20, 10), (26, 10)), ("tip", "edge")),  # at a hole
         (((20, 10), (30, 10)), ("tip", "edge")),  # in it
         (((5, -1), (5, 21)), ("edge", "edge")),
@@ -45,6 +47,46 @@ def ends(*lines, **sections):
 def test_ends_of_one_crack(points, wanted):
     found, _ = ends((points, {}))
     assert found == [wanted]
+
+
+@given(st.integers(-1000, 3000))
+def test_a_word_that_auto_chooses_is_no_mistake(depth):
+    """depth: inside the surface, in thousandths of a cell."""
+    found, deck = ends((((depth / 1000, 5), (15, 5)), {}))
+    again = read(deck.resolved())
+    assert [(crack.start, crack.end) for crack in again.cracks] == found
+
+
+@pytest.mark.parametrize("word", ["edge", "tip"])
+@pytest.mark.parametrize("depth", [0.11, 0.4, 0.6, 1.0])
+def test_near_the_surface_a_deck_may_say_either_word(word, depth):
+    """dcb.yaml has its edge a quarter of a cell inside, or a whole cell of a grid four times finer.
+
+    There 40 mm - 39 mm is more than 1 mm by round-off.
+    """
+    found, _ = ends((((15, 5), (40 - depth, 5)), {"end": word}))
+    assert found == [("tip", word)]
+
+
+@pytest.mark.parametrize(("word", "depth"), [("edge", 1.01), ("tip", 0.09)])
+def test_further_in_it_is_no_edge_nearer_it_is_no_tip(word, depth):
+    with pytest.raises(DeckError, match=f"'{word}' "):
+        ends((((15, 5), (40 - depth, 5)), {"end": word}))
+
+
+def test_an_end_in_a_held_plane_is_a_tip():
+    """Half of a plate with its ligament held: a warning tells of symmetry, no word is wrong."""
+    held = [{"where": {"y": 0, "x": [0.015, 0.04]}, "fix": ["y"]}]
+    for more in ({}, {"start": "edge", "end": "tip"}):
+        found, deck = ends((((0, 0), (15, 0)), more), boundary=held)
+        assert found == [("edge", "tip")]
+        (warning,) = deck.warnings
+        assert "for half of a body say symmetry: true" in warning.message
+
+
+def test_an_end_at_a_plane_that_is_held_but_not_followed_is_at_the_surface():
+    found, _ = ends((((0, 5), (15, 5)), {}), boundary=[{"where": {"x": 0}, "fix": ["x"]}])
+    assert found == [("edge", "tip")]
 
 
 @pytest.mark.parametrize("off", [0.0, 0.05, -0.05])

@@ -97,12 +97,20 @@ def test_a_pack_in_a_round_box_stays_inside():
 def test_a_pack_that_is_too_dense_is_a_mistake():
     ((path, message),) = mistakes({**PACK, "fraction": 0.7})
     assert path == ("fraction",)
-    assert message.startswith("can not be reached: ")
-    assert "(got 0.7); disks thrown at random jam near 0.5" in message
+    assert message.startswith("can not be reached: 267 disks of this size would fill 0.699 of ")
+    assert message.endswith("(got 0.7); disks thrown at random jam near 0.5")
     small = {**BOX, "upper": [0.1, 0.1]}
     ((path, message),) = mistakes({**PACK, "inside": small, "fraction": None, "count": 1})
     assert path == ("count",)
-    assert "0 of 1 disks found room" in message
+    assert message.startswith("can not be reached: 1 disk of this size would fill 3.142 of ")
+
+
+def test_a_pack_whose_disks_find_no_room_is_a_mistake():
+    """Below what jams disks are thrown and counted: none fits a strip narrower than it is."""
+    strip = {**BOX, "upper": [4, 0.19]}
+    ((path, message),) = mistakes({**PACK, "inside": strip, "fraction": None, "count": 1})
+    assert path == ("count",)
+    assert "0 of 1 disks found room, a fraction of 0.000 (got 1); disks thrown at" in message
 
 
 # pictures

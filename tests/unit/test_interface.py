@@ -129,7 +129,9 @@ def threshold(tip, turned=0.0, ahead=1.0):
 
 def at_tip(tip, heading, ahead):
     """Return what tells the turn at a tip for a toughness of the plane; None where it goes on."""
-    cracks = [{"name": "c", "points": [(tip - 14 * heading).tolist(), tip.tolist()]}]
+    length = 0.5 + min(x / h for x, h in zip(tip, heading, strict=True) if h > 0.01)
+    start = tip - length * heading  # just beyond the left or the lower border of the body
+    cracks = [{"name": "c", "points": [start.tolist(), tip.tolist()]}]
     cracks[0]["start"] = "edge"
     materials = {"right": {"E": ahead}}
     model, state, scratch = build_deck(PLANE, cracks=cracks, materials=materials)

@@ -8,7 +8,7 @@ from support import advance, build_deck, locate
 
 from cramp_cli.boundary.conditions import meet_rows
 from cramp_cli.grid_velocity import find_update_velocity
-from cramp_cli.shapes.shape import offsets, weights
+from cramp_cli.shapes.shape import offsets, place_of, weights
 from cramp_cli.transfer.on_grid import find_acceleration
 from cramp_cli.transfer.sums import sum_mass_and_momentum
 from cramp_cli.transfer.update import Flip, Fmpm, Xpic, moved
@@ -120,6 +120,6 @@ def _dense(model, scratch):
     shape, stencil = model.blocks[0].shape, scratch.stencil
     steps = np.array(offsets(model.strides, shape))
     S = np.zeros((len(stencil.base), len(scratch.grid.mass)))
-    for p, x in enumerate(stencil.local.tolist()):
-        S[p, stencil.base[p] + steps] = weights(tuple(x), shape)
+    for p, base in enumerate(stencil.base):
+        S[p, base + steps] = weights(place_of(shape, model.strides, stencil, p), shape)
     return S
