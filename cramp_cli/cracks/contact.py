@@ -32,6 +32,7 @@ LAWS = {
     "adhesive": ADHESIVE,  # of bodies alone: contact/adhesion.py
 }
 
+FELT = 0.05  # share of the mass of two rows from which a row's forces count in full
 OPEN, SLIDING, STUCK = 0, 1, 2  # what a pair of rows does
 
 FIRST, UPDATE, LAST = 0, 1, 2  # passes A, B, C: after the first sums, the update, the second sums
@@ -104,10 +105,16 @@ def touch_pair(grid, a, b, normal, gap, law, strides, dt, stage):
 def gap_ahead(grid, a, b, normal, gap, strides, dt):
     """Return the opening between rows a and b at the end of the step if nothing pushes them (m).
 
-    With the velocities of the start of the step: those that the forces have made of them are no
-    motion of the faces where a row holds little (its f/m has no bound, particles hardly feel it).
+    The forces count: faces that are pressed together must not let go for a step, or friction lets
+    them creep. They do not where a row holds little: its f/m has no bound, particles hardly feel
+    it, and faces that are open would meet.
     """
-    return gap + dt * dot(parting(grid, a, b, strides, grid.saved), normal)
+    share = min(grid.mass[a], grid.mass[b]) / (grid.mass[a] + grid.mass[b])
+    felt = 0.5 * dt * dt * min(share / FELT, 1.0)
+    speed = parting(grid, a, b, strides, grid.saved)
+    pull = parting(grid, a, b, strides, grid.force)
+    ahead = plus(times(speed, dt), felt, pull)
+    return gap + dot(ahead, normal)
 
 
 @kernel
