@@ -110,7 +110,7 @@ def test_1_all_that_the_loop_over_time_holds_is_kept_or_follows_from_the_state()
     model, state, _ = build_deck(PLATE)
     run = _Run(read(PLATE), model, state, None, None, 1, None)
     follows = {"deck", "model", "state", "outputs", "reporter", "keeper", "scratch", "watch"}
-    follows |= {"begun_at"}
+    follows |= {"begun_at", "judged"}
     kept = set(run.remember())
     assert set(vars(run)) - follows - {*DUES} == kept - {"due"}
     assert set(vars(run.balance)) - {"limits", "solver"} == {*Balance.REMEMBERED}

@@ -300,7 +300,9 @@ def touch_pair(problem, crack, a, b, normal, when, met):
     apart, flush = opened(a, b)
     gap = sum(x * n[d] for d, x in enumerate(apart)) - flush
     if when == "update":
-        gap += dt * sum((b.saved[d] / b.m - a.saved[d] / a.m) * n[d] for d in AXES)
+        felt = 0.5 * dt * min(min(a.m, b.m) / total / 0.05, 1.0)
+        ahead = [(r.saved[d] + felt * r.f[d]) / r.m for r in (a, b) for d in AXES]
+        gap += dt * sum((ahead[2 + d] - ahead[d]) * n[d] for d in AXES)
     fast = [b.p[d] / b.m - a.p[d] / a.m for d in AXES]
     along = [dp[d] - dpn * n[d] for d in AXES]
     slip = hypot(*along)

@@ -157,7 +157,7 @@ def test_tractions_neither_push_nor_turn_the_body_and_work_on_the_surfaces(tips,
     scratch.grid.force[:] = scratch.grid.acceleration[:] = 0.0
     scratch.grid.velocity[:count] = chance.normal(size=(count, 2))
     faces, where = lay_out_faces(paths), what_surfaces_see(model, scratch)
-    cut, mass = cut_of_points(model, paths), scratch.grid.mass
+    cut, mass = cut_of_points(model, paths, scratch.at_tips), scratch.grid.mass
     spread(scratch.grid.force, *scratch.seen, traction, paths, faces, cut, mass, *where, 1.0)
     force = scratch.grid.force[:count]
     assert np.abs(force).max() > 0.1

@@ -95,7 +95,7 @@ def test_a_face_hardly_sees_a_row_that_holds_next_to_nothing(x, y):
             row = seen.row[:n]
             node = np.where(row < len(of_node), row, rows.node[np.maximum(row - len(of_node), 0)])
             assert total > 0.0
-            count = seen.weight[:n] / of_node[node].max()
+            count = seen.weight[:n] * total / of_node[node].max()
             assert np.all(count <= mass[row] / of_node[node] / LIGHT + 1e-15)
             if cut[k] == 1.0 and np.all(rows.tip[node] >= 0):
                 own = np.where(row < len(of_node), rows.tip_side[node], -rows.tip_side[node])

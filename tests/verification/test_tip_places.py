@@ -14,6 +14,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from verification.equilibrium import NU, SHEAR, load_border, plate, rest
 
+from cramp_cli.cracks.carry import carried
 from cramp_cli.cracks.fields import cut_of_points, what_surfaces_see
 from cramp_cli.cracks.tips import sample_tips
 from cramp_cli.cracks.view import look_from, make_seen, side_normal
@@ -149,7 +150,8 @@ def openings(at_rest, u):
         for side in (1, -1):
             who = (seen, False, paths, k, 0, side, normal, cut[k])
             n, total = look_from(*who, scratch.grid.mass, *where)
-            face.append(seen.weight[:n] @ u[seen.row[:n]] / total)
+            assert total > 0.0
+            face.append(np.array(carried(seen, n, u)))
         found.append((face[0] - face[1]) @ np.array(normal))
     return np.hypot(*(paths.point - paths.point[-1]).T), np.array(found)
 
