@@ -9,8 +9,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from runs import INPUTS
-from support import advance
+from runs import run_input
+from support import locate
 from verification.center_crack_table import (
     HALF_WIDTH,
     PLACES,
@@ -22,9 +22,7 @@ from verification.center_crack_table import (
 )
 from verification.solutions import center_crack
 
-from cramp_cli.build import build
 from cramp_cli.cracks.tips import sample_tips
-from cramp_cli.deck.deck import read_deck
 from cramp_cli.scratch import make_scratch
 
 pytestmark = pytest.mark.verification
@@ -94,10 +92,9 @@ def test_K_II_is_nothing_everywhere_in_a_cell(all_places, tip, line):
 @pytest.mark.slow
 def test_K_I_does_not_depend_on_the_radius():
     """Domains of 4 to 10 cells, tip on a node, 20 cells: 0.2 % apart, 0.5 % from Tada's formula."""
-    deck = read_deck(INPUTS / "center_crack.yaml", crack_settings(20, 0, 0))
-    model, state = build(deck)
-    scratch = make_scratch(model, state)
-    advance(model, state, scratch, round(model.end_time / model.dt))
+    run = run_input("center_crack", *crack_settings(20, 0, 0))
+    model, state, scratch = run.model, run.state, make_scratch(run.model, run.state)
+    locate(model, state, scratch)
     values = []
     for cells in range(4, 11):
         radii = (cells * model.lattice.width,)
